@@ -55,7 +55,9 @@ def write_mid_surface(
     """
     build = partial(new_mesh, found, table=_TABLE)
     span = radius_range(found.of_vertices)
-    thing, _ = MID_SURFACE.write_coloured(source, build, THICKNESS, found.of_vertices, *span)
+    thing, is_new = MID_SURFACE.write_coloured(source, build, THICKNESS, found.of_vertices, *span)
+    if is_new:
+        thing.show_in_front = True  # it lies inside the surface
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[SHEETS], thing[SHARE] = found.sheets, found.share

@@ -27,6 +27,7 @@ def test_a_plate_is_one_sheet_with_its_thickness():
     source = plate()
     made = unsolidify()
     assert made.name == "Cube Mid-Surface" and made.parent == source
+    assert made.show_in_front, "it lies inside the walls"
     positions = np.array([vertex.co[:] for vertex in made.data.vertices])
     np.testing.assert_allclose(np.ptp(positions, axis=0), (2.0, 2.0, 0.0), atol=1e-5)
     for name in ("ma_thickness", "ma_face_thickness"):

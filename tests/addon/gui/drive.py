@@ -32,6 +32,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "sampling": True,
     "what_comes_after": True,
     "hollow": True,
+    "unsolidify": True,
     "hide_and_seek": True,
     "cancel_surface_with_escape": True,
     "cancel_with_escape": True,

@@ -48,7 +48,7 @@ AUTO_UPDATE = (62, 231)  # in the header of the panel Result
 SAMPLING = (150, 440)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
 MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
-HOLLOW = (102, 520)  # where nothing is thinner than the limit
+UNSOLIDIFY, HOLLOW = (102, 494), (102, 520)  # where nothing is thinner than the limit
 DRAIN = (255, 675)  # on the screen, in Adjust Last Operation
 REBUILD_SOLID, OTHERS = (102, 339), (49, 339)
 FORM, SKELETON_END = (200, 95), (30, 345)
@@ -902,6 +902,39 @@ def scene_hollow():
     yield from key("ctrl+z")
     yield from until(lambda: not any("Hollow" in thing.name for thing in bpy.data.objects))
     assert "Torus" in bpy.data.objects
+
+
+def scene_unsolidify():
+    """A T as its middle surface, which the panel's button makes and its modifier thickens again; undo takes it off."""
+    source = profile_t()
+    yield from measured(limit=0.05)
+    look("1-measured")
+    yield from click(*at(UNSOLIDIFY))
+    yield from until(lambda: "T Mid-Surface" in bpy.data.objects)
+    sheets = bpy.data.objects["T Mid-Surface"]
+    assert set(attribute(sheets.data, "ma_part")) == {0, 1, 2}
+    yield patience(1.0)
+    look("2-sheets")
+    modifier = sheets.modifiers["Medial Axis Thickness"]
+    modifier.show_viewport = True
+    yield patience(1.0)
+    look("3-solid-again")
+    yield from key("ctrl+z")
+    yield from until(lambda: "T Mid-Surface" not in bpy.data.objects)
+    assert "T" in bpy.data.objects
+
+
+def profile_t():
+    """A T of walls of 0.1."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    outline = [(-1, 1), (-1, 0.9), (-0.05, 0.9), (-0.05, -0.5)]
+    outline += [(-x, z) for x, z in outline[::-1]]
+    points = [(x, y, z) for y in (-1, 1) for x, z in outline]
+    sides = [(i, (i + 1) % 8, (i + 1) % 8 + 8, i + 8) for i in range(8)]
+    source = link("T", points, [*sides, range(7, -1, -1), range(8, 16)])
+    frame_selected()
+    bpy.ops.ed.undo_push(message="Scene is set")
+    return source
 
 
 def measured(limit):
