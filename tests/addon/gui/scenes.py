@@ -906,7 +906,7 @@ def scene_hollow():
 
 def scene_unsolidify():
     """A T as its middle surface, which the panel's button makes and its modifier thickens again; undo takes it off."""
-    source = profile_t()
+    profile_t()
     yield from measured(limit=0.05)
     look("1-measured")
     yield from click(*at(UNSOLIDIFY))
