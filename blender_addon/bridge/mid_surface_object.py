@@ -14,6 +14,7 @@ from .attributes import Attribute
 from .material import THICKNESS, thickness_material
 from .output_object import Product, place, remember
 from .step_weights import write_steps
+from .thickness_object import carrier_of
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
@@ -57,12 +58,20 @@ def write_mid_surface(
     span = radius_range(found.of_vertices)
     thing, is_new = MID_SURFACE.write_coloured(source, build, THICKNESS, found.of_vertices, *span)
     if is_new:
-        thing.show_in_front = True  # it lies inside the surface
+        _show_in_front(thing, source)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[SHEETS], thing[SHARE] = found.sheets, found.share
     _solidify(thing, found.of_vertices)
     return thing
+
+
+def _show_in_front(thing: bpy.types.Object, source: bpy.types.Object) -> None:
+    """Let the sheets be seen, which lie inside the solid, also where a copy of this with its thickness is in front."""
+    carrier = carrier_of(source)
+    if carrier is not None and carrier != source:
+        carrier.show_in_front = False
+    thing.show_in_front = True
 
 
 def _solidify(thing: bpy.types.Object, lengths: NDArray[np.float64]) -> None:

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import refuse
+from scene import addon, refuse, select
 
 T = 0.05
 
@@ -90,3 +90,16 @@ def test_again_updates_the_same_object():
 def test_a_block_has_no_sheets():
     bpy.ops.mesh.primitive_cube_add(size=2)
     refuse("found none", operator="medial_axis_unsolidify", samples=4000)
+
+
+def test_it_is_seen_also_where_the_thickness_was_measured_on_a_copy():
+    source = plate()
+    assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
+    copy = addon("bridge.thickness_object").carrier_of(source)
+    assert copy != source and copy.show_in_front
+    select(source)
+    made = unsolidify()
+    assert made.show_in_front and not copy.show_in_front
+    made.show_in_front = False
+    select(source)
+    assert unsolidify() == made and not made.show_in_front, "what the artist chose stays"
