@@ -274,7 +274,8 @@ def _in_wide_pieces(
     volume = np.bincount(piece, 2.0 * areas * radii / np.diff(axis.face_offsets), count)
     area = np.bincount(piece, areas, count)
     thickness = volume / np.where(area > 0.0, area, np.inf)
-    width = 2.0 * area / np.maximum(_borders(axis, piece, count), np.finfo(float).tiny)
+    border = _borders(axis, piece, count)
+    width = np.where(border > 0.0, 2.0 * area / np.where(border > 0.0, border, 1.0), np.inf)
     thick = np.zeros(count, bool)
     thick[piece[facet[~at_edge[axis.face_vertices]]]] = True
     wide = thick & (area > 0.0) & (width + thickness >= least_width * thickness)
