@@ -14,6 +14,7 @@ import numpy as np
 
 from ..small_matrices import dot
 from .cut import with_facets
+from .directions import corners_after
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -47,7 +48,9 @@ def _cut_at(axis: MedialAxis, k: int, sign: float, side: float) -> MedialAxis:
     beyond = sign * (axis.vertices[:, k] - side)
     if not (beyond > 0.0).any():
         return axis
-    ends = np.column_stack((axis.face_vertices, axis.face_vertices[_following(axis)]))
+    ends = np.column_stack(
+        (axis.face_vertices, axis.face_vertices[corners_after(axis.face_offsets)])
+    )
     crosses = np.sign(beyond[ends]).prod(axis=1) < 0.0
     # The end within comes first, so that the new vertex is the same in all facets of the edge.
     edges = np.where((beyond[ends[:, 0]] > 0.0)[:, None], ends[:, ::-1], ends)[crosses]
@@ -56,13 +59,6 @@ def _cut_at(axis: MedialAxis, k: int, sign: float, side: float) -> MedialAxis:
     return _with_corners(
         _with_vertices(axis, edges, beyond, k, side), beyond[ends[:, 0]] <= 0.0, crosses, new
     )
-
-
-def _following(axis: MedialAxis) -> NDArray[np.int64]:
-    """(c,) the corner after each corner of a facet."""
-    after = np.arange(len(axis.face_vertices)) + 1
-    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
-    return after
 
 
 def _with_vertices(

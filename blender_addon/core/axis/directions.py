@@ -104,14 +104,19 @@ def _doubled_areas(
     return doubled
 
 
+def corners_after(offsets: NDArray[np.int32]) -> NDArray[np.int64]:
+    """(c,) the corner after each corner of a facet, whose corners begin at (f + 1,) `offsets`."""
+    after = np.arange(1, int(offsets[-1]) + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    return after
+
+
 def _sums_of_triangles(
     places: NDArray[np.float64], offsets: NDArray[np.int32]
 ) -> NDArray[np.float64]:
     starts = offsets[:-1]
-    towards = np.arange(1, len(places) + 1)
-    towards[offsets[1:] - 1] = starts
     away = places - np.repeat(places[starts], np.diff(offsets), axis=0)
-    return np.add.reduceat(np.cross(away, away[towards]), starts, axis=0)
+    return np.add.reduceat(np.cross(away, away[corners_after(offsets)]), starts, axis=0)
 
 
 def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ..axis.directions import facet_areas, facet_normals
+from ..axis.directions import corners_after, facet_areas, facet_normals
 from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import ON_CREASE, ON_RIM
 from ..axis.turning import with_facets_turned
@@ -155,10 +155,7 @@ def _slopes(
     axis: MedialAxis, areas: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """(f, 3) the mean gradient of the radius over each facet, from the radii along its border."""
-    corner = np.arange(len(axis.face_vertices))
-    after = corner + 1
-    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
-    here, there = axis.face_vertices, axis.face_vertices[after]
+    here, there = axis.face_vertices, axis.face_vertices[corners_after(axis.face_offsets)]
     facet = np.repeat(np.arange(len(areas)), np.diff(axis.face_offsets))
     out = np.cross(axis.vertices[there] - axis.vertices[here], normals[facet])
     flux = 0.5 * (axis.radius[here] + axis.radius[there])[:, None] * out
@@ -228,10 +225,8 @@ def _strips(
 
 def _around(axis: MedialAxis) -> NDArray[np.float64]:
     """(f,) the length of the border of each facet."""
-    corner = np.arange(len(axis.face_vertices))
-    after = corner + 1
-    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
-    ends = axis.vertices[axis.face_vertices[after]] - axis.vertices[axis.face_vertices]
+    here, there = axis.face_vertices, axis.face_vertices[corners_after(axis.face_offsets)]
+    ends = axis.vertices[there] - axis.vertices[here]
     return np.asarray(np.add.reduceat(np.linalg.norm(ends, axis=1), axis.face_offsets[:-1]))
 
 
