@@ -195,11 +195,15 @@ def run_pytest(blender: Path, *options: str, **environment: str) -> None:
 
 
 def addon(blender: Path, *options: str) -> None:
-    """The tests inside Blender, in as many Blenders as there are cores: each takes the next file that is left."""
-    logs = [paths.BUILD / f"addon_{i}.log" for i in range(min(parallel_jobs(), 4))]
+    """The tests inside Blender."""
+    run_shared([*inside(blender), f"--durations={LONGEST}", *options], "addon")
+
+
+def run_shared(words: list[str], name: str) -> None:
+    """Run a command in as many processes as there are cores: each takes the next file or scene that is left."""
+    logs = [paths.BUILD / f"{name}_{i}.log" for i in range(min(parallel_jobs(), 4))]
     with tempfile.TemporaryDirectory(prefix="medial_axis_claims_") as claims:
-        words = [*inside(blender), f"--claims={claims}", f"--durations={LONGEST}", *options]
-        codes = run_together([words] * len(logs), logs)
+        codes = run_together([[*words, f"--claims={claims}"]] * len(logs), logs)
     for log in logs:
         print(log.read_text(encoding="utf-8", errors="replace"), flush=True)
     if any(codes):
@@ -223,7 +227,7 @@ def gui(blender: Path, scenes: tuple[str, ...] = ()) -> None:
     for tool in ("Xvfb", "xdotool", "import"):
         if shutil.which(tool) is None:
             raise Skip(f"{tool} is not installed")
-    run(*inside(blender), "--gui", "--keep", paths.BUILD / "gui", *scenes)
+    run_shared([*inside(blender), "--gui", f"--keep={paths.BUILD / 'gui'}", *scenes], "gui")
 
 
 def inside(blender: Path) -> list[str]:

@@ -9,8 +9,9 @@
 
 Without --zip the add-on's sources and compiled modules are packed first. --bpy takes a Python with
 Blender as a module instead of a Blender. --gui drives Blender's window under Xvfb with xdotool; its
-screenshots and logs are written to the folder that --keep names. --script runs another script than
-the tests. The exit code is 0 when every test passed.
+screenshots and logs are written to the folder that --keep names. With --claims, processes that share
+a folder share the files of tests, or the scenes. --script runs another script than the tests. The
+exit code is 0 when every test passed.
 """
 
 from __future__ import annotations
@@ -101,6 +102,7 @@ def main() -> int:
         "--gui", action="store_true", help="drive the window instead of background mode"
     )
     parser.add_argument("--keep", type=Path, help="where --gui leaves its screenshots and logs")
+    parser.add_argument("--claims", type=Path, help="where processes note what they take")
     arguments, pytest_arguments = parser.parse_known_args()
     with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
         kind, program = (
@@ -116,7 +118,10 @@ def main() -> int:
             sys.path.insert(0, str(HERE / "gui"))
             import drive
 
-            return drive.run_all(blender, arguments.keep or Path(folder) / "gui", pytest_arguments)
+            keep = arguments.keep or Path(folder) / "gui"
+            return drive.run_all(blender, keep, pytest_arguments, arguments.claims)
+        if arguments.claims:
+            pytest_arguments.append(f"--claims={arguments.claims}")
         return blender.script(
             arguments.script.resolve(),
             *pytest_arguments,

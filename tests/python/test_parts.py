@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +16,7 @@ import build_addon
 from native.packaging import needs, paths
 from native.packaging.terminal import Failure
 from tests import lint, parts
+from tests.addon.gui import drive
 
 ROOT = paths.ROOT
 
@@ -68,8 +70,25 @@ def test_each_tier_is_a_part_of_the_next():
 
 
 def test_the_scenes_of_the_default_are_scenes():
-    driver = (ROOT / "tests" / "addon" / "gui" / "drive.py").read_text(encoding="utf-8")
-    assert set(parts.SCENES) < set(re.findall(r'^    "(\w+)": ', driver, re.MULTILINE))
+    assert set(parts.SCENES) < set(drive.SCENES)
+
+
+def test_processes_share_scenes_and_leave_none_out(monkeypatch, tmp_path):
+    run = []
+
+    def run_scene(blender, name, folder):
+        run.append(name)
+        return "broken" if name == "scan" else ""
+
+    monkeypatch.setattr(drive, "run_scene", run_scene)
+    monkeypatch.setattr(drive, "display", lambda size: contextlib.nullcontext(":0"))
+    monkeypatch.setattr(drive, "module_hidden", lambda blender: contextlib.nullcontext())
+    blender = SimpleNamespace(environment={})
+    (tmp_path / "tutorial").touch()  # another process has it
+    assert drive.run_all(blender, tmp_path, [], tmp_path) == 1
+    assert run == [name for name in drive.SCENES if name != "tutorial"]
+    assert drive.run_all(blender, tmp_path, [], tmp_path) == 0 and len(set(run)) == len(run)
+    assert drive.run_all(blender, tmp_path, ["scan"]) == 1 and run[-1] == "scan"
 
 
 ORACLES = """

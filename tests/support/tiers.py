@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from .claims import claim
+
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
@@ -89,9 +91,5 @@ def _longest_first(items):
 
 def _is_mine(path, folder, known={}):  # noqa: B006 - what this process has taken, or found taken
     if path not in known:
-        try:
-            (folder / path.name).touch(exist_ok=False)
-            known[path] = True
-        except FileExistsError:
-            known[path] = False
+        known[path] = claim(folder, path.name)
     return known[path]

@@ -10,6 +10,8 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+from tests.support.claims import claim  # run.py makes it found
+
 HERE = Path(__file__).resolve().parent
 SIZE = (1280, 800)
 SIZES = {
@@ -55,8 +57,8 @@ SCENES = {  # name -> whether the compiled module is installed
 }
 
 
-def run_all(blender, folder: Path, wanted: list[str]) -> int:
-    """Run the scenes, or those named; returns the exit code."""
+def run_all(blender, folder: Path, wanted: list[str], claims: Path | None = None) -> int:
+    """Run the scenes, or those named; with `claims` those that no other process takes. Returns the exit code."""
     folder = folder.resolve()  # a chroot has another working folder
     folder.mkdir(parents=True, exist_ok=True)
     unknown = set(wanted) - set(SCENES)
@@ -64,7 +66,7 @@ def run_all(blender, folder: Path, wanted: list[str]) -> int:
         raise SystemExit(f"expected scenes out of {', '.join(SCENES)}, found {', '.join(unknown)}")
     failed = []
     for name, with_module in SCENES.items():
-        if wanted and name not in wanted:
+        if (wanted and name not in wanted) or (claims and not claim(claims, name)):
             continue
         with (
             display(size_of(name)) as number,
