@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from medial_axis import cli
+from medial_axis.commands.parse import parse
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.batch import axis_work, batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
@@ -21,6 +22,7 @@ from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.files.axis_arrays import as_arrays
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
+from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write import export_axis
 from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Choice, Switch
@@ -147,7 +149,7 @@ def test_options_are_those_of_settings(capsys):
 
 
 def test_defaults_are_those_of_settings():
-    wanted = cli._parse(["a.off", "a.ma"])
+    wanted = parse(["a.off", "a.ma"])
     assert wanted.work.settings == Settings()
 
 
@@ -166,7 +168,7 @@ def test_every_option_arrives(name):
         words = {key: [f"--{name}".replace("_", "-"), key] for key in members}
         values = members
     for key, value in values.items():
-        settings = cli._parse(["a.off", *words[key], "a.ma"]).work.settings
+        settings = parse(["a.off", *words[key], "a.ma"]).work.settings
         assert getattr(settings, name) == value
         assert getattr(option_words.settings_from(argparse_of(settings), Settings), name) == value
 
@@ -179,18 +181,18 @@ def argparse_of(settings):
 
 
 def test_options_in_one_word():
-    wanted = cli._parse(["a.off", "--options", "--rho 9 --side 'both' --json", "a.ma", "--rho=7"])
+    wanted = parse(["a.off", "--options", "--rho 9 --side 'both' --json", "a.ma", "--rho=7"])
     assert (wanted.work.settings.rho, wanted.work.settings.side, wanted.json) == (
         9.0,
         Side.BOTH,
         True,
     )
-    assert cli._parse(["a.off", "a.ma", "--options="]).work.settings == Settings()
+    assert parse(["a.off", "a.ma", "--options="]).work.settings == Settings()
 
 
 def test_degrees_are_exact_where_it_matters():
     for degrees, radians in ((22.5, np.pi / 8), (90, np.pi / 2), (0, 0.0)):
-        assert cli._parse(["a.off", "a.ma", f"--theta={degrees}"]).work.settings.theta == radians
+        assert parse(["a.off", "a.ma", f"--theta={degrees}"]).work.settings.theta == radians
 
 
 @pytest.mark.parametrize(
@@ -442,7 +444,7 @@ def test_other_settings_are_computed_again(here, run):
 
 
 def test_stamp_names_all_that_matters(here):
-    shape = cli.read_shape("egg.xyz")[0]
+    shape = read_shape("egg.xyz")[0]
     stamps = {
         batch.stamp_of(shape, settings, suffix)
         for settings in (Settings(), Settings(rho=9.0), Settings(limit_set=True))

@@ -55,6 +55,7 @@ MAY_IMPORT = {
         "core/files",
         "",
     },
+    "commands": {*CORE, "bridge", ""},
     "bridge": {*CORE, "bridge/nodes", ""},
     "bridge/nodes": {"core/axis", "bridge"},
     "ui": {*CORE, "bridge", "bridge/nodes", ""},
@@ -188,7 +189,9 @@ def test_ui_imports_no_numpy(python_file):
         assert not {name for name in outside if name.split(".")[0] in {"numpy", "scipy"}}
 
 
-@pytest.mark.parametrize("path", sorted(ADDON.glob("*.py")), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", sorted([*ADDON.glob("*.py"), *python_files("commands")]), ids=lambda path: path.name
+)
 def test_front_doors_import_without_blender(path):
     """The package and its command line load where there is no bpy: it is only imported inside functions."""
     top = [

@@ -19,7 +19,11 @@ ADDON = ROOT / "blender_addon"
 VERSION = re.search(
     r'^version = "(.+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE
 ).group(1)
-CORE = {path.relative_to(ADDON).as_posix() for path in (ADDON / "core").rglob("*.py")}
+CORE = {
+    path.relative_to(ADDON).as_posix()
+    for folder in ("commands", "core")
+    for path in (ADDON / folder).rglob("*.py")
+}
 FRONT = {
     "__init__.py",
     "__main__.py",
