@@ -1669,6 +1669,29 @@ def polygon_triangles(
     InvalidInputError
     """
 
+def crossing_faces(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], *, most: int = 20_000_000
+) -> NDArray[np.int32]:
+    """Pairs of triangles that pass through each other, decided exactly.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    most : int
+        It ends early when it has compared so many pairs whose boxes meet.
+
+    Returns
+    -------
+    pairs : (k, 2) int32
+        Rows of triangles of which one has a side that passes through the inside of the other one, the lower first, in
+        ascending order. Triangles that only touch do not count, nor those in one plane.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def winding_number(
     queries: NDArray[np.float64], vertices: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:

@@ -5,6 +5,7 @@
 #include "base/rows.h"
 #include "base/triangle_tree.h"
 #include "bindings.h"
+#include "delaunay/crossing_faces.h"
 #include "delaunay/even_sheet.h"
 #include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
@@ -147,6 +148,16 @@ py::array triangles_of_polygons(const py::object& points, const py::object& face
   return array_of<int32_t>(std::move(triangles));
 }
 
+py::array faces_that_cross(const py::object& points, const py::object& triangles, int64_t most) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  auto pairs = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    return crossing_faces(row_span, face_span, most);
+  }();
+  return array_of<int32_t>(std::move(pairs));
+}
+
 py::array winding_numbers(const py::object& queries, const py::object& vertices,
                           const py::object& triangles) {
   const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
@@ -248,6 +259,8 @@ void bind_surfaces(py::module_& m) {
         py::arg("face_vertices"), py::arg("vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, docs::polygon_triangles, py::arg("points"),
         py::arg("face_offsets"), py::arg("face_vertices"));
+  m.def("crossing_faces", &faces_that_cross, docs::crossing_faces, py::arg("points"),
+        py::arg("triangles"), py::kw_only(), py::arg("most") = 20'000'000);
   m.def("winding_number", &winding_numbers, docs::winding_number, py::arg("queries"),
         py::arg("vertices"), py::arg("triangles"));
   m.def("surface_distances", &surface_distances, docs::surface_distances, py::arg("queries"),

@@ -381,10 +381,12 @@ def test_a_single_body_is_not_said_to_overlap():
     from medial_axis.core.axis.topology import _why
 
     samples = SimpleNamespace(
-        buried=3, solid=SimpleNamespace(shape=SimpleNamespace(is_folded=True))
+        buried=3, solid=SimpleNamespace(shape=SimpleNamespace(is_folded=True, crossing=[]))
     )
     assert _why((1, 3, 0), (1, 0, 0), samples).startswith("faces fold back on each other")
     samples.solid.shape.is_folded = False
     assert _why((1, 3, 0), (1, 0, 0), samples).startswith("walls or gaps are thinner")
     assert _why((1, 3, 0), (2, 0, 0), samples) == "its parts overlap"
     assert _why((3, 0, 0), (2, 0, 0), samples).startswith("its parts overlap, and some")
+    samples.solid.shape.crossing = [(0, 1)]
+    assert _why((1, 3, 0), (1, 0, 0), samples) == "faces pass through each other"

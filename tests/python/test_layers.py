@@ -302,8 +302,9 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations of points and of polygons, even sheets, wrapping, and balls of rivals; all set CGAL up alike."""
+    """Triangulations, faces that cross, even sheets, wrapping, and balls of rivals; all set CGAL up alike."""
     units = (
+        "delaunay/crossing_faces.cpp",
         "delaunay/even_sheet.cpp",
         "delaunay/polygon_triangles.cpp",
         "delaunay/triangulation.cpp",

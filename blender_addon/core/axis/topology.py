@@ -77,9 +77,12 @@ def _why(
         return "its parts overlap"
     if torn:
         return "some parts are thinner than the spacing of the samples"
-    if samples.solid is not None and samples.solid.shape.is_folded:
+    shape = None if samples.solid is None else samples.solid.shape
+    if shape is not None and len(shape.crossing):
+        return "faces pass through each other"
+    if shape is not None and shape.is_folded:
         return (
             "faces fold back on each other, or walls or gaps are thinner than the spacing of the "
             "samples"
         )
-    return "walls or gaps are thinner than the spacing of the samples, or faces pass through each other"
+    return "walls or gaps are thinner than the spacing of the samples"

@@ -10,10 +10,12 @@ import numpy as np
 
 from ..settings import SamplingMode
 from ..severe import Severe
+from ..small_matrices import placed
 from .density import percent
 from .nearness import same_place
 from .outward_faces import are_left_out, reading_warnings
 from .scan import is_noisy, scan_warnings
+from .worst_doubt import words_of_place
 
 if TYPE_CHECKING:
     from .chosen import ChosenSamples
@@ -46,12 +48,24 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             "more samples, a smaller Spacing or a larger Budget help"
         )
     if chosen.differs:
-        yield _differs(chosen)
+        yield _crossing(shape) if len(shape.crossing) else _differs(chosen)
     if density.share > _SPARSE and not _confirmed_by_faces(chosen) and not is_noisy(chosen.scan):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )
+
+
+def _crossing(shape: Shape) -> str:
+    """Where faces pass through each other, as closed faces of a solid do not."""
+    pair = shape.crossing[:1]
+    place = placed(shape.points[shape.triangles[pair[0, 0]]].mean(axis=0)[None], shape.frame)[0]
+    pairs = "1 pair" if len(shape.crossing) == 1 else f"{len(shape.crossing):,} pairs"
+    return (
+        f"{pairs} of faces pass through each other, as near {words_of_place(place)}, so the "
+        "pieces, loops and cavities of the faces are not those of a solid; a Boolean modifier with "
+        "Self Intersection, or Remesh, makes one surface of them"
+    )
 
 
 def _differs(chosen: ChosenSamples) -> str:

@@ -84,6 +84,12 @@ class Shape:
             return module.solid_betti(self.points, self.triangles)
 
     @cached_property
+    def crossing(self) -> NDArray[np.int32]:
+        """(k, 2) pairs of faces that pass through each other; not all of them where very many faces are thin."""
+        with native.own_errors() as module:
+            return np.asarray(module.crossing_faces(self.points, self.triangles))
+
+    @cached_property
     def neighbours(self) -> NDArray[np.int64]:
         """(m, 3) the triangle beyond the side after each corner, which passes it the other way; -1 where there is none.
 

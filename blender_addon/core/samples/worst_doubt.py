@@ -12,6 +12,8 @@ from ..small_matrices import placed
 from .nearness import nearest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from .analysed import AnalysedSamples
@@ -31,7 +33,12 @@ class WorstDoubt:
     @property
     def words(self) -> str:
         """The place as '(1, 2.5, -3)'."""
-        return f"({', '.join(f'{x:.4g}' for x in self.place)})"
+        return words_of_place(self.place)
+
+
+def words_of_place(place: Iterable[float]) -> str:
+    """Format a place as '(1, 2.5, -3)'."""
+    return f"({', '.join(f'{x:.4g}' for x in place)})"
 
 
 def worst_doubt(
