@@ -199,6 +199,38 @@ def test_flat_faces_stay_flat_beside_bevels(medial):
     assert np.abs(np.abs(samples.points[flat, 2] - 2.5) - 2.5).max() < 1e-9
 
 
+def bent_bar(segments, thickness=0.02, width=0.04, fillet=0.002):
+    """A flat bar with rounded edges, bent about an axis at a distance of 1."""
+    turn = np.linspace(0.0, np.pi / 2, 4)
+    across, up = (
+        width / 2 - fillet + fillet * np.sin(turn),
+        thickness / 2 - fillet * (1 - np.cos(turn)),
+    )
+    right = np.column_stack((across, up))
+    right = np.concatenate((right, right[::-1] * (1, -1)))
+    z, off = np.concatenate((right, -right)).T
+    rings = [
+        np.column_stack(((1 + off) * np.sin(a), (1 + off) * np.cos(a), z))
+        for a in np.linspace(-0.5, 0.5, segments + 1)
+    ]
+    a = np.arange(len(rings) * len(z)).reshape(len(rings), -1)
+    b = np.roll(a, -1, axis=1)
+    quads = np.stack((a[:-1], b[:-1], b[1:], a[1:]), axis=-1).reshape(-1, 4)
+    fan = np.column_stack((0 * z[2:], np.arange(1, len(z) - 1), np.arange(2, len(z)))).astype(int)
+    ends = np.concatenate((fan[:, ::-1], fan + a[-1, 0]))
+    return np.concatenate(rings), np.concatenate((quads[:, :3], quads[:, [0, 2, 3]], ends))
+
+
+@pytest.mark.parametrize("segments", [16, 40])
+def test_flat_faces_stay_flat_where_a_bar_with_bevels_is_bent(segments):
+    """Two large faces meet at each vertex, beside small ones."""
+    found = measure(bent_bar(segments), Settings())
+    x, y, z = found.points.T
+    middle = (np.abs(z) < 0.014) & (np.abs(np.arctan2(x, y)) < 0.4) & ~found.at_edge
+    assert middle.sum() > 5000
+    assert np.abs(found.lengths[middle] / 0.02 - 1).max() < 1e-3
+
+
 @pytest.mark.turn
 @pytest.mark.parametrize("around, across, turn", [(100, 16, 0.5), (250, 60, 0.5), (4400, 14, 0.0)])
 def test_rows_of_a_ring_are_no_walls(around, across, turn):
