@@ -181,6 +181,27 @@ def test_balls_between_flat_faces_are_exact_up_to_the_edges(mesh):
     assert (walls.lengths[inside] >= (1 - 1e-6) * found.lengths[inside]).all()
 
 
+def revolved(profile, around=48):
+    """A ring whose section is a polygon of (radius, height), counter-clockwise."""
+    radius, height = np.array(profile, float).T
+    turn = 2 * np.pi * np.arange(around)[:, None] / around
+    points = np.stack((np.cos(turn) * radius, np.sin(turn) * radius, 0 * turn + height), axis=-1)
+    a = np.arange(around * len(radius)).reshape(around, -1)
+    b, d = np.roll(a, -1, axis=1), np.roll(a, -1, axis=0)
+    quads = np.stack((a, d, np.roll(d, -1, axis=1), b), axis=-1).reshape(-1, 4)
+    return points.reshape(-1, 3), np.concatenate((quads[:, :3], quads[:, [0, 2, 3]]))
+
+
+def test_a_narrow_lip_is_as_thick_as_the_way_through_it():
+    """All corners of its triangles lie on edges, most of which have the thickness of the wall beside it."""
+    outline = [(7, 0), (7, 8), (3.95, 8), (3.95, 7.8), (4, 7.8), (4, 0)]
+    found = measure(revolved(outline), Settings())
+    middle = found.points[found.triangles].mean(axis=1)
+    below = (np.hypot(*middle[:, :2].T) < 4.0) & (np.abs(middle[:, 2] - 7.8) < 1e-9)
+    assert below.sum() > 100
+    np.testing.assert_allclose(found.of_triangles[below], 0.2, rtol=1e-6)
+
+
 def rounded_disc(thickness=5.0, radius=60.0, edge=1.5):
     turn = np.linspace(0.0, np.pi / 2, 7)
     inner, low = radius - edge + edge * np.sin(turn), edge - edge * np.cos(turn)

@@ -44,6 +44,8 @@ class MeasuredSurface:
         The shortest way to an opposite wall that was found at each triangle itself; infinite where there is none.
     face_of_triangles : (f,) int32 or None
         The face of the shape in which each triangle lies; None where they lie in none.
+    in_middles : (f,) float64 or None
+        By the faces, the length in the middle of a triangle all of whose corners lie on edges; else infinite.
     """
 
     points: NDArray[np.float64]
@@ -53,6 +55,7 @@ class MeasuredSurface:
     faces: NDArray[np.int32] | None
     at_most: NDArray[np.float64]
     face_of_triangles: NDArray[np.int32] | None = None
+    in_middles: NDArray[np.float64] | None = None
 
 
 def bounded(

@@ -139,20 +139,22 @@ def lengths_by_faces(
     bare = np.flatnonzero(on_edge[fine.triangles].all(axis=1))
     balls = _balls(balls_in, fine, at_edge, bare, progress)
     lengths, measured = _filled(shape, fine, at_edge, bare, balls, wanted.edges)
-    of_triangles = np.full(len(fine.triangles), np.inf)
-    of_triangles[bare] = balls.wall[len(fine.points) :]
+    count = len(fine.points)
+    at_most, in_middles = np.full((2, len(fine.triangles)), np.inf)
+    at_most[bare], in_middles[bare] = balls.wall[count:], lengths[count:]
     faces = np.full(len(fine.points), -1, np.int32)
     faces[fine.triangles] = fine.faces[:, None]
     surface = MeasuredSurface(
         points=fine.points,
         triangles=shape.triangles if fine is coarse else fine.triangles,
-        lengths=lengths,
+        lengths=lengths[:count],
         at_edge=on_edge,
         faces=faces,
-        at_most=of_triangles,
+        at_most=at_most,
         face_of_triangles=fine.faces,
+        in_middles=in_middles,
     )
-    return surface, measured, row, fine is not coarse
+    return surface, measured[:count], row, fine is not coarse
 
 
 def first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -222,12 +224,12 @@ def _filled(
     balls: _Balls,
     edges: Edges,
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(n,) the lengths of the points, those of the nearest walls where they have none, and (n,) which were measured."""
+    """The lengths of points and middles, those of the nearest walls where they have none, and which were measured."""
     count = len(fine.points)
     values = balls.any if edges is Edges.BALL else balls.wall
     measured = np.isfinite(values)
     if edges is Edges.GREY or measured.all():
-        return values[:count], measured[:count]
+        return values, measured
     centres = np.repeat(count + np.arange(len(bare)), 3)
     ways = np.column_stack((centres, fine.triangles[bare].ravel()))
     points = np.concatenate((fine.points, fine.points[fine.triangles[bare]].mean(axis=1)))
@@ -253,8 +255,8 @@ def _filled(
         if np.array_equal(before, filled):
             break
     own = np.where(np.isfinite(balls.any), balls.any, 0.0)
-    lengths = np.where(measured, values, np.maximum(filled, own))[:count]
-    return _below_rays(shape, fine, lengths, measured[:count] | at_edge), measured[:count]
+    lengths = np.where(measured, values, np.maximum(filled, own))
+    return _below_rays(shape, fine, bare, points, lengths, measured | edge), measured
 
 
 def _of_nearest(
@@ -271,17 +273,23 @@ def _of_nearest(
 
 
 def _below_rays(
-    shape: Shape, fine: FineFaces, lengths: NDArray[np.float64], known: NDArray[np.bool_]
+    shape: Shape,
+    fine: FineFaces,
+    bare: NDArray[np.intp],
+    points: NDArray[np.float64],
+    lengths: NDArray[np.float64],
+    known: NDArray[np.bool_],
 ) -> NDArray[np.float64]:
-    """Lower what was filled in to the way straight through the solid."""
-    triangle = np.full(len(lengths), -1)
+    """Lower what was filled in, at points and then at middles, to the way straight through the solid."""
+    triangle = np.full(len(fine.points), -1)
     triangle[fine.triangles] = np.arange(len(fine.triangles))[:, None]
+    triangle = np.concatenate((triangle, bare))
     rows = np.flatnonzero(~known & np.isfinite(lengths) & (lengths > 0.0) & (triangle >= 0))
     if not len(rows):
         return lengths
     corners = fine.points[fine.triangles[triangle[rows]]]
     normals = unit_normals(shape.points[shape.triangles[fine.faces[triangle[rows]]]])[0]
-    places = fine.points[rows]
+    places = points[rows]
     places = places + _ASIDE * (corners.mean(axis=1) - places)
     with native.own_errors() as module:
         ways = module.wall_distances(places, normals, lengths[rows], shape.points, shape.triangles)

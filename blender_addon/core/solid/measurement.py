@@ -117,10 +117,10 @@ class Measurement:
         median[mixed] = others if by_faces else np.maximum(median[mixed], others)
         if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
             median[on_edge.all(axis=0)] = np.inf
-        at_most = self.surface.at_most
-        if by_faces:
-            return np.where(np.isfinite(at_most), at_most, median)
-        return np.minimum(median, at_most)
+        middles = self.surface.in_middles
+        if middles is not None:
+            return np.where(np.isfinite(middles), middles, median)
+        return np.minimum(median, self.surface.at_most)
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:

@@ -164,10 +164,14 @@ def _up_to_faces(found: Measurement) -> Measurement:
         return np.maximum(lengths + more, 0.0)
 
     surface, walls = found.surface, found.walls
+    middles = surface.in_middles
     return replace(
         found,
         surface=replace(
-            surface, lengths=widened(surface.lengths), at_most=widened(surface.at_most)
+            surface,
+            lengths=widened(surface.lengths),
+            at_most=widened(surface.at_most),
+            in_middles=None if middles is None else widened(middles),
         ),
         walls=replace(
             walls, distance=widened(walls.distance), at_vertices=widened(walls.at_vertices)
