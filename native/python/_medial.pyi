@@ -590,7 +590,8 @@ class ScanMeasure:
     def mates(self) -> float:
         """How many pairs of close points have the same height over the surface, in units of what errors have.
 
-        1 for errors, 1.5 to 2 where each view of a scan lies off as a whole; 0.0 where no noise is seen.
+        1 for errors, 1.5 to 2 where each view of a scan lies off as a whole; 0.0 where no noise is seen, or where
+        larger neighbourhoods hold two walls.
         """
     @property
     def duplicates(self) -> int:

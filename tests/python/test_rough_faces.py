@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.samples.cube_faces import are_cubes
 from medial_axis.core.samples.rough_faces import smooth_faces
+from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import Prepare, SamplingMode, Settings, SidesFrom
+from medial_axis.core.settings import Form, Prepare, SamplingMode, Settings, SidesFrom
 from support.data import DATA
+from support.inputs import rotation
 from support.meshes import box, icosphere, torus
 
 RADIUS = 1.0
@@ -25,8 +28,8 @@ def sphere(noise):
     return points * (1.0 + noise * edge * errors), np.asarray(triangles, np.int32)
 
 
-def voxels(cells):
-    """A ball of cubes: its corners and the triangles of its sides, in steps."""
+def cubes(cells):
+    """A ball of cubes: their corners and the quadrangles of their sides, in steps."""
     axis = np.arange(-cells, cells + 1)
     inside = (np.stack(np.meshgrid(axis, axis, axis), -1) ** 2).sum(-1) < (cells - 1) ** 2
     quads = []
@@ -41,9 +44,18 @@ def voxels(cells):
             quads.append(quad)
     corners = np.concatenate(quads)
     points, row = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
-    row = row.reshape(-1, 4)
-    triangles = np.concatenate([row[:, [0, 1, 2]], row[:, [0, 2, 3]]]).astype(np.int32)
-    return (points - cells - 0.5).astype(float), triangles
+    return (points - cells - 0.5).astype(float), row.reshape(-1, 4)
+
+
+def halves(quads):
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+
+
+def between(points, quads):
+    """Each corner in the middle of the sides round it, as programs make surfaces of voxels."""
+    sums = np.zeros_like(points)
+    np.add.at(sums, quads, points[quads].mean(axis=1)[:, None])
+    return sums / np.bincount(quads.ravel())[:, None]
 
 
 def prepared(mesh, **options):
@@ -64,8 +76,37 @@ def test_noise_is_measured_and_moved_away(noise):
 
 
 def test_steps_of_voxels_are_moved_away():
-    shape, found, said = prepared(voxels(30))
+    points, quads = cubes(30)
+    shape, found, said = prepared((between(points, quads), halves(quads)))
+    assert off(found.points, 29) < 0.6 * off(shape.points, 29) and "steps of about" in said
+    shape, found, said = prepared((points, halves(quads)), prepare=Prepare.ALWAYS)
     assert off(found.points, 29) < 0.35 * off(shape.points, 29) and "steps of about" in said
+
+
+@pytest.mark.parametrize("kind", ["along the axes", "turned", "apart", "with grass"])
+def test_cubes_stay_cubes(kind):
+    """As of voxel art: their steps are meant, and only Always moves them."""
+    points, quads = cubes(30)
+    triangles = halves(quads)
+    if kind == "turned":
+        points = np.float64(np.float32(points @ rotation(1)))
+    if kind == "apart":
+        points, triangles = points[triangles].reshape(-1, 3), np.arange(triangles.size)
+        triangles = triangles.reshape(-1, 3).astype(np.int32)
+    if kind == "with grass":
+        blade = points[triangles[:20]].reshape(-1, 3) @ rotation(1)
+        triangles = np.vstack([triangles, len(points) + np.arange(60).reshape(-1, 3)])
+        points, triangles = np.vstack([points, blade]), triangles.astype(np.int32)
+    shape, found, said = prepared((points, triangles))
+    assert found is shape and "sides of cubes" in said
+    assert prepared((points, triangles), prepare=Prepare.OFF)[2] == ""
+
+
+def test_a_prism_has_no_cubes():
+    """All faces of a round bar are along its axis or across it, but in more than three directions."""
+    points, triangles = sphere(0.0)
+    assert not are_cubes(points * (1.0, 1.0, 1e4), triangles)
+    assert are_cubes(*box((24, 20, 16)))
 
 
 @pytest.mark.parametrize(
@@ -147,10 +188,27 @@ def test_normals_have_to_fit(medial):
         medial.surface_noise(points, points[:-1])
 
 
-def test_the_axis_of_a_noisy_ring_is_a_ring():
-    """Errors of a third of an edge: as it is, the axis has flakes; prepared, it lies on the circle."""
+def noisy_ring():
+    """Errors of a third of an edge."""
     points, triangles = torus(1.0, 0.4, 90, 40)
-    points = points + np.random.default_rng(1).normal(size=points.shape) * 0.022
+    return points + np.random.default_rng(1).normal(size=points.shape) * 0.022, triangles
+
+
+def test_the_report_has_the_samples_of_the_axis():
+    points, triangles = noisy_ring()
+    settings = Settings(sampling=SamplingMode.VERTICES, form=Form.PUBLISHED)
+    report = report_sampling(Shape(points, triangles), settings)
+    axis = compute(points, triangles, settings)
+    assert report.chosen.samples.key == axis.key
+    assert np.array_equal(report.vertices, axis.chosen.samples.points)
+    assert any("were found in the faces" in said for said in report.warnings)
+    assert np.allclose(report.moved, np.linalg.norm(report.vertices - points, axis=1))
+    assert report.moved.any()
+
+
+def test_the_axis_of_a_noisy_ring_is_a_ring():
+    """As it is, the axis has flakes; prepared, it lies on the circle."""
+    points, triangles = noisy_ring()
     off, found = (
         compute(points, triangles, Settings(prepare=prepare, sampling=SamplingMode.VERTICES))
         for prepare in (Prepare.OFF, Prepare.AUTOMATIC)

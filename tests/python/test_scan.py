@@ -43,6 +43,15 @@ def test_noise_is_measured(medial, name, noise):
     assert found.noise == pytest.approx(noise * spacing, rel=0.1)
 
 
+@pytest.mark.parametrize("noise", [0.1, 0.25, 0.35])
+def test_noise_of_thin_walls_is_measured(medial, noise):
+    """Walls of three spacings: only small neighbourhoods have one wall, and larger ones a plateau of two."""
+    points, spacing = noisy(SHAPES["shell"], noise, 12_000)
+    found = medial.measure_scan(points)
+    assert found.noise == pytest.approx(noise * spacing, rel=0.1)
+    assert found.kurtosis > 2.3 and found.mates == 0.0
+
+
 @pytest.mark.parametrize("name", ["ellipsoid", "torus", "box", "slab", "knot", "shell"])
 def test_clean_points_stay_the_same(name):
     points, _ = noisy(SHAPES[name], 0.0)
@@ -163,6 +172,15 @@ def test_noise_of_half_a_spacing_leaves_the_topology(name, betti):
     assert off.axis.level.betti != betti
     assert any("left as it is" in warning for warning in off.warnings)
     assert not any("too sparse" in warning for warning in (*off.warnings, *found.warnings))
+
+
+def test_noise_of_thin_walls_leaves_the_topology():
+    """Without Prepare there are loops."""
+    points, _ = noisy(SHAPES["shell"], 0.25, 12_000)
+    found = compute(points, NO_FACES, Settings())
+    assert found.axis.level.betti == (1, 0, 1)
+    assert any("the points were moved by" in said for said in found.warnings)
+    assert not any("do not fit" in said or "layers" in said for said in found.warnings)
 
 
 def test_the_report_tells_how_far_points_moved():

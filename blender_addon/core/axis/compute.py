@@ -14,7 +14,7 @@ from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.outward_faces import reading_counts
-from ..samples.rough_faces import smooth_faces
+from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..samples.shape import Shape
 from ..samples.solid_faces import triangles_of_places
 from ..settings import Form, Settings, SidesFrom
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 # The share of the work before the hierarchy begins.
 _ANALYSIS = 0.6
-_SMOOTHING = 0.02  # of the whole work, as few faces are noisy
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +126,7 @@ def compute_axis(
     settings = settings.with_side()
     rough = ""
     if relaxed:
-        shape, rough = smooth_faces(shape, settings, progress and progress.part(_SMOOTHING))
+        shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,

@@ -44,6 +44,7 @@ _IN_SHORT = {
     "the points were moved by": "Noise was smoothed",
     "their vertices were moved by": "Faces were smoothed",
     "spacings were found in the faces": "Faces have noise",
+    "the faces are sides of cubes": "Faces are cubes",
     "found and left as it is": "There is noise",
     "the points lie in layers": "Points lie in layers",
     "the scans do not fit": "Scans do not fit",

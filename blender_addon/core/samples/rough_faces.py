@@ -11,6 +11,7 @@ import numpy as np
 from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
 from ..small_matrices import dot
+from .cube_faces import are_cubes
 from .scan import SOME
 from .surface_normals import cross
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
+SMOOTHING = 0.02  # of the whole work, as few faces are noisy
 # In spacings: with more noise faces fold over each other, and their normals tell nothing.
 _TOO_MUCH = 1.0
 # With fewer triangles, details of a shape that was modelled coarse look like noise.
@@ -26,6 +28,10 @@ _LEAST = 5_000
 # Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than so many times
 # the median, which is at most 2.6 on scans, voxels and noisy meshes. Of designed plates with letters it is 25.
 _UNEVEN = 4.0
+_OF_CUBES = (
+    "the faces are sides of cubes and were left as they are; if they are the steps of a scan, which are noise, "
+    "Prepare Always moves the vertices"
+)
 
 
 def smooth_faces(
@@ -53,13 +59,16 @@ def smooth_faces(
         return shape, ""  # the sampling refuses such faces, in a sentence
     if settings.prepare is not Prepare.ALWAYS and not _are_even(shape):
         return shape, ""
-    normals = _vertex_normals(shape)
+    unit = _of_size_one(shape.points)
+    normals = _vertex_normals(unit, shape.triangles)
     with native.own_errors() as module:
         measure = module.surface_noise(shape.points, normals, progress=progress)
         noise = measure.noise / measure.spacing if measure.noise > 0.0 else 0.0
         enough = 0.0 if settings.prepare is Prepare.ALWAYS else SOME
         if noise <= enough:
             return shape, ""
+        if settings.prepare is not Prepare.ALWAYS and are_cubes(unit, shape.triangles):
+            return shape, _OF_CUBES if settings.prepare is Prepare.AUTOMATIC else ""
         if settings.prepare is Prepare.OFF or noise > _TOO_MUCH:
             return shape, _left(noise, settings.prepare)
         points = module.smooth_vertices(shape.points, normals, measure, progress=progress)
@@ -93,11 +102,16 @@ def _left(noise: float, prepare: Prepare) -> str:
     )
 
 
-def _vertex_normals(shape: Shape) -> NDArray[np.float64]:
-    """(n, 3) sums of the areas of the faces round each vertex, along their normals, for a shape of size 1."""
-    exponent = int(np.frexp(np.abs(shape.points).max())[1])
-    points = np.ldexp(shape.points, -exponent)
-    a, b, c = (points[shape.triangles[:, corner]] for corner in range(3))
-    area, corners = cross(b - a, c - a), shape.triangles.ravel()
-    sums = [np.bincount(corners, np.repeat(column, 3), len(shape.points)) for column in area.T]
+def _of_size_one(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The points in a unit, a power of two, in which no coordinate is above 1."""
+    return np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
+
+
+def _vertex_normals(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """(n, 3) sums of the areas of the faces round each vertex, along their normals."""
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    area, corners = cross(b - a, c - a), triangles.ravel()
+    sums = [np.bincount(corners, np.repeat(column, 3), len(points)) for column in area.T]
     return np.column_stack(sums)

@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..settings import SamplingMode
+from ..small_matrices import dot
 from .choose_samples import begin
 from .density import Density, estimate
 from .nearness import sample_of_row
+from .rough_faces import SMOOTHING, smooth_faces
 from .sampling_warnings import sampling_warnings
 from .triangle_faces import TriangleFaces
 
@@ -38,7 +41,7 @@ class SamplingReport(TriangleFaces):
     epsilon, spacing, feature_size : (n,) float64
         As in `density`; rows with the same coordinates have the same values.
     moved : (n,) float64
-        How far each point of a scan was moved; 0 where nothing was.
+        How far each point of a scan or vertex of noisy faces was moved; 0 where nothing was, and for samples of faces.
     density : Density
         The density at all samples.
     shape : Shape
@@ -80,7 +83,9 @@ def report_sampling(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    begun = begin(shape, settings.with_side(), progress, limit)
+    settings, given = settings.with_side(), shape
+    shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
+    begun = begin(shape, settings, progress, limit)
     shape, chosen = begun.shape, begun.chosen
     samples, density = chosen.samples, _of_all(chosen.samples)
     rows = sample_of_row(samples.points, samples.analysis.samples)
@@ -90,20 +95,25 @@ def report_sampling(
         epsilon=density.epsilon[rows],
         spacing=density.spacing[rows],
         feature_size=density.feature_size[rows],
-        moved=_moved(chosen),
+        moved=_moved(given, shape, chosen),
         density=density,
         shape=shape,
         chosen=chosen,
-        warnings=tuple(sampling_warnings(shape, chosen)),
+        warnings=(*([rough] if rough else []), *sampling_warnings(shape, chosen)),
         seconds=begun.seconds,
     )
 
 
-def _moved(chosen: ChosenSamples) -> NDArray[np.float64]:
+def _moved(given: Shape, shape: Shape, chosen: ChosenSamples) -> NDArray[np.float64]:
     """Return how far each sample was moved; a scan that was thinned afterwards no longer tells."""
     count = len(chosen.samples.points)
-    moved = None if chosen.scan is None else chosen.scan.moved
-    return np.zeros(count) if moved is None or len(moved) != count else moved
+    if chosen.scan is not None:
+        moved = chosen.scan.moved
+        return np.zeros(count) if moved is None or len(moved) != count else moved
+    if chosen.sampling is SamplingMode.VERTICES and len(shape.points) == len(given.points) == count:
+        away = shape.points - given.points
+        return np.sqrt(dot(away, away))
+    return np.zeros(count)
 
 
 def _of_all(samples: AnalysedSamples) -> Density:

@@ -18,7 +18,7 @@ struct ScanMeasure {
   double kurtosis = 0;
   // How many pairs of close points have the same height over the surface, in units of what errors
   // have: 1 for errors, 1.5 to 2 where each view of a scan lies off as a whole. 0 where no noise is
-  // seen.
+  // seen, or where larger neighbourhoods hold two walls.
   double mates = 0;
   int64_t duplicates = 0;         // rows that repeat an earlier one
   std::vector<int32_t> outliers;  // ascending rows of points that stand alone

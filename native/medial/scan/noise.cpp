@@ -169,9 +169,13 @@ double seen_of(double noise) {
   return known.back()[1];
 }
 
-// Returns the size at which a plateau is flattest, or 0 if there is none. Of faces two steps have
-// to be flat, as their smallest neighbourhoods say less.
-size_t plateau_of(const Measured& measured, const Ladder& all, double widest) {
+struct Plateau {
+  size_t best = 0, last = 0;  // the size at which it is flattest, and its largest; 0: there is none
+};
+
+// Returns the first plateau; a later one is that of two walls. Of faces two steps have to be flat,
+// as their smallest neighbourhoods say less.
+Plateau plateau_of(const Measured& measured, const Ladder& all, double widest) {
   const auto count = static_cast<size_t>(measured.tree.size());
   size_t end = 1;
   while (end < measured.sizes() && count >= kSizes[end] && all.radius[end] <= widest) ++end;
@@ -181,13 +185,13 @@ size_t plateau_of(const Measured& measured, const Ladder& all, double widest) {
   for (size_t i = 1; i < end; ++i) {
     if (!(growth(i) < kPlateau)) continue;
     if (measured.has_faces() && !(i + 1 < end && growth(i + 1) < kPlateau)) continue;
-    size_t best = i;
-    for (size_t j = i + 1; j < end; ++j) {
-      if (growth(j) < growth(best)) best = j;
+    Plateau found{i, i};
+    while (found.last + 1 < end && growth(found.last + 1) < kPlateau) {
+      if (growth(++found.last) < growth(found.best)) found.best = found.last;
     }
-    return best;
+    return found;
   }
-  return 0;
+  return {};
 }
 
 // Returns the size of the neighbourhoods onto whose quadrics the vertices of faces move.
@@ -212,14 +216,16 @@ NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run,
   };
   const NoiseFigures none{spacing_at(2)};
   if (static_cast<size_t>(tree.size()) <= kSizes[4]) return none;
-  const size_t best = plateau_of(measured, all, kLargest * diagonal);
+  const auto [best, last] = plateau_of(measured, all, kLargest * diagonal);
   if (best == 0) return none;
   const double noise = all.spread[best], spacing = spacing_at(best);
   if (noise < kLeast * spacing) return none;
   const double seen = measured.has_faces() ? kSeenOfFaces : kSeen * seen_of(noise / spacing);
   if (all.spread[0] < seen * noise) return none;
   const size_t wide = widened(measured, all, best, kLargest * diagonal);
-  return {spacing, noise, all.kurtosis[best], all.mates, all.radius[wide]};
+  // Beyond the plateau a neighbourhood holds two walls, whose points have the same heights.
+  const double mates = last < kUnder ? 0 : all.mates;
+  return {spacing, noise, all.kurtosis[best], mates, all.radius[wide]};
 }
 
 }  // namespace medial
