@@ -102,8 +102,10 @@ double area_of(const Level& level) {
   return area;
 }
 
-TEST(OppositeWalls, TheBallTouchesTheOtherSideOfAWedgeAtTheSameDistanceFromItsEdge) {
-  const double angle = 0.3;
+class OppositeWallsOfAWedge : public testing::TestWithParam<double> {};
+
+TEST_P(OppositeWallsOfAWedge, TheBallTouchesTheOtherSideOfAWedgeAtTheSameDistanceFromItsEdge) {
+  const double angle = GetParam();
   const Vec3 up{std::cos(angle), std::sin(angle), 0};
   const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {4, 0, 2},
                                  {0, 0, 2}, 4.0 * up,  4.0 * up + Vec3{0, 0, 2}};
@@ -119,6 +121,8 @@ TEST(OppositeWalls, TheBallTouchesTheOtherSideOfAWedgeAtTheSameDistanceFromItsEd
   EXPECT_NEAR(distance(there, from.x * up + Vec3{0, 0, from.z}), 0, 1e-12);
   EXPECT_FALSE(walls({0, {0.3, 0.4, 0.3}}, 0.1 * found->distance));
 }
+
+INSTANTIATE_TEST_SUITE_P(Angles, OppositeWallsOfAWedge, testing::Values(0.05, 0.3, 0.8, 1.0));
 
 TEST(Pairs, EverySampleOfAPlateIsOppositeItsPartner) {
   for (const double t : {0.03, 1e-3, 1e-5}) {

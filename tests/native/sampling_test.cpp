@@ -160,6 +160,21 @@ TEST(SizingField, GrowsNoFasterThanItsGrading) {
   }
 }
 
+// All nearest neighbours of the fine sites are fine, on their own wall.
+TEST(SizingField, ReachesSparseSitesOfAnOppositeWall) {
+  std::vector<Vec3> sites;
+  std::vector<double> spacings;
+  for (int i = 0; i < 100; ++i) {
+    sites.push_back({0.02 * (i % 10), 0.02 * (i / 10), 1});
+    spacings.push_back(0.02);
+  }
+  sites.push_back({0.1, 0.1, 0});
+  spacings.push_back(3);
+  const medial::Run run{2, nullptr};
+  EXPECT_EQ(SizingField(sites, spacings, run)(sites.back()), 3);
+  EXPECT_NEAR(SizingField(sites, spacings, run, true)(sites.back()), 0.02 + 0.3, 1e-3);
+}
+
 TEST(PoissonDisks, KeepTheirDistanceFromEachOtherAndFromFixedOnes) {
   TriangleMesh mesh;
   const Creases creases = creases_of(folded(), mesh);

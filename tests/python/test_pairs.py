@@ -14,6 +14,7 @@ from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
+from medial_axis.core.settings import SamplingMode
 from support import thin_solids
 from support.readers import area_of
 from support.thick_meshes import shell
@@ -204,6 +205,35 @@ def test_the_loop_goes_on_while_it_helps(monkeypatch, differences, passes):
     start = SimpleNamespace(differences=10, samples=samples)
     best, found = topology_loop._best(request, start, False, lambda *_: samples)
     assert found == passes and best.differences == differences[passes - 1]
+
+
+@pytest.mark.parametrize(
+    "missed, doubts, follows",
+    [
+        (0.0, 1, ["own", "doubts"]),
+        (0.05, 1, ["density", "doubts"]),
+        (0.5, 1, ["density"]),  # the doubts are everywhere
+        (0.0, 0, ["density"]),
+    ],
+)
+def test_the_second_pass_in_pairs_is_denser_where_it_has_to_be(
+    monkeypatch, missed, doubts, follows
+):
+    spacings = {"own": [3.0, 3.0], "density": [2.0], "doubts": [1.5]}
+    amount = {"sizing": (np.zeros((1, 3)), np.array(spacings["density"]))}
+    monkeypatch.setattr(topology_loop, "next_amount", lambda *_: amount)
+    samples = SimpleNamespace(
+        points=np.array([(0.0, 0.0, 0.0), (9.0, 0.0, 0.0)]),
+        apart=np.array(spacings["own"]),
+        walls=SimpleNamespace(missed=missed, are_missed=missed > 0.01),
+        buried=0,
+    )
+    places, gaps = np.full((doubts, 3), 1.0), np.full(doubts, 5.0)
+    trial = SimpleNamespace(samples=samples, places=places, gaps=gaps, differences=7)
+    request = SimpleNamespace(settings=SimpleNamespace(sampling=SamplingMode.AUTOMATIC))
+    sites, apart = topology_loop._finer(request, trial, 1, 1000)["sizing"]
+    assert apart.tolist() == [s for name in follows for s in spacings[name]]
+    assert len(sites) == len(apart)
 
 
 def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):

@@ -39,6 +39,8 @@ _REACH = 1.5  # no place of a surface is farther from its samples than this numb
 _OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
 # Where a Voronoi edge passes the faces in a gap below this share of the way to its samples, it may touch a bulge.
 _WIDE = 0.2
+# Walls that are missed on more than this share of the area are missed as a whole.
+_AS_A_WHOLE = 0.2
 # So large a share of the samples may be buried, for foils are too thin to tell; and while spacings become smaller.
 _BURIED, _FEW_BURIED = 0.01, 0.005
 # Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
@@ -270,20 +272,25 @@ def _doubts(
 def _finer(request: Request, trial: Trial, number: int, budget: int) -> dict[str, Any]:
     """Return the amount of the pass after a `number` of passes: spacings as they are, or smaller ones at doubts.
 
-    The first time they follow the density and the walls, as without pairs; walls that are missed have doubts
-    everywhere, which say nothing.
+    The first time they follow the density and the walls, as without pairs, where walls are missed or no doubt says
+    where. Elsewhere that makes more loops than it closes.
     """
-    samples = trial.samples
+    samples, where = trial.samples, bool(len(trial.gaps) and trial.differences)
     effort = EFFORT[request.settings.sampling]
     assert samples.apart is not None
     sites, spacings = samples.points, samples.apart
-    if number == 1:
+    if number == 1 and (are_close(samples) or not where):
         sites, spacings = next_amount(samples, effort.elsewhere, effort.walls, budget)["sizing"]
-    if len(trial.gaps) and trial.differences and not (number == 1 and are_close(samples)):
+    if where and not (number == 1 and _are_missed_as_a_whole(samples)):
         places, wanted = _wanted(trial)
         sites = np.concatenate((sites, places))
         spacings = np.concatenate((spacings, wanted))
     return {"sizing": (sites, spacings), "count": budget}
+
+
+def _are_missed_as_a_whole(samples: AnalysedSamples) -> bool:
+    """Whether so many walls are missed that doubts are everywhere and say nothing."""
+    return samples.walls is not None and samples.walls.missed > _AS_A_WHOLE
 
 
 def _wanted(trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

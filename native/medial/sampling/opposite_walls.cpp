@@ -10,7 +10,7 @@ namespace {
 
 constexpr int32_t kLeafOfWalls = 4;
 constexpr int kMostShrinkings = 32;
-constexpr double kFacing = 0.8660254037844386;  // the cosine of 30 degrees
+constexpr double kFacing = 0.5;  // the cosine of 60 degrees
 constexpr double kUpright =
     0.94;  // the cosine between a normal and the way to the centre, at least
 constexpr int kMostSteps = 12;

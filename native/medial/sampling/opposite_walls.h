@@ -45,9 +45,10 @@ class OppositeWalls {
   OppositeWalls(const CurvedSurface& surface, const Creases& creases);
 
   // Returns where the ball that touches the surface at a place from inside, or from outside,
-  // touches the opposite wall. Only triangles within 30 degrees of the opposite direction count, so
-  // the ball ignores walls beside. There is nothing if the diameter of the ball is above `reach`,
-  // or if the ball touches the end of a wall at a slant.
+  // touches the opposite wall. Only triangles within 60 degrees of the opposite direction count, so
+  // the ball ignores walls beside, and the sides of acute grooves and edges are opposite walls.
+  // There is nothing if the diameter of the ball is above `reach`, or if the ball touches the end
+  // of a wall at a slant.
   std::optional<WallPlace> operator()(const SurfacePlace& from, double reach,
                                       Through through = Through::solid) const;
   // Returns a place and those opposite to it, through solid and gaps in turn, that are within reach

@@ -12,12 +12,16 @@
 namespace medial {
 
 // Returns the spacing of the nearest site. The spacings of sites are lowered first, such that from
-// one site to the next the spacing grows by less than kGrading times the distance.
+// one site to the next the spacing grows by less than kGrading times the distance. The next ones of
+// a site among dense ones are these. With `across`, two sites are next to each other if one of them
+// is among the next ones of the other, so that small spacings reach the sparse sites of an opposite
+// wall, too.
 class SizingField {
  public:
   static constexpr double kGrading = 0.3;
 
-  SizingField(std::span<const Vec3> sites, std::span<const double> spacings, const Run& run);
+  SizingField(std::span<const Vec3> sites, std::span<const double> spacings, const Run& run,
+              bool across = false);
 
   double operator()(const Vec3& place) const;
 

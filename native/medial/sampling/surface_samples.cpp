@@ -442,7 +442,7 @@ Attempt sample_sized(const Model& model, const SamplingOptions& options, const R
         std::max(kFinestSpacing * longest_edge(model.mesh), crease_length(model) / on_creases);
     for (double& s : spacings) s = std::max(s, least);
   }
-  const SizingField field(*options.sites, spacings, run);
+  const SizingField field(*options.sites, spacings, run, options.pairs);
   Spacing spacing{1, &field};
   if (!options.count) return sample_once(model, options, spacing, run);
   const double most = wanted_count(model, options);
