@@ -48,6 +48,7 @@ def build(arguments: argparse.Namespace) -> None:
 
 
 def pack_modules(arguments: argparse.Namespace) -> None:
+    needs.require(needs.PACK)
     pack.pack(find_blender(arguments.blender))
 
 

@@ -67,7 +67,8 @@ _RULE = "=" * 100
 
 def text(modules: list[str]) -> str:
     """The whole file for a zip with the modules of these names."""
-    windows = any(name.endswith(".pyd") for name in modules)
+    # Modules by Microsoft's compiler come from another machine and have none of mingw-w64.
+    windows = any(name.endswith(".pyd") for name in modules) and (paths.BUILD / "mingw").is_dir()
     components = [*EVERYWHERE, *(WINDOWS if windows else ())]
     parts = [_INTRODUCTION, *map(_part, components), *_parts_of_zig(modules), _lesser_licence()]
     if others := _newer_pybind11(modules):

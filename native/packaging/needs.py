@@ -15,21 +15,25 @@ from . import paths
 from .terminal import Failure, run, say, succeeds
 
 # Each table maps a need to the Debian package that provides it.
+HEADERS = {
+    "CGAL headers": "libcgal-dev",
+    "Boost headers": "libboost-dev",
+    "pybind11 headers": "pybind11-dev",
+}
 CORE = {
     "C++ compiler": "g++",
     "CMake": "cmake",
     "Ninja": "ninja-build",
-    "CGAL headers": "libcgal-dev",
-    "Boost headers": "libboost-dev",
-    "pybind11 headers": "pybind11-dev",
+    **HEADERS,
     "Python headers": "python3-dev",
 }
-BUILD = {
-    **CORE,
+PACK = {
+    **HEADERS,  # their packages bring the licences
     "Markdown, for the pages in the zip": "python3-markdown",
     "NumPy for Blender's Python": "python3-numpy",
     "Blender": "blender",
 }
+BUILD = {**CORE, **PACK}
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 ZIG = {"pip, which brings zig": "python3-pip"}
 LINUX_ARM64 = {**ZIG, "strip for all systems": "llvm"}

@@ -163,6 +163,17 @@ def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(mon
     assert "--no-install-recommends cmake blender" in capsys.readouterr().err
 
 
+def test_packing_where_nothing_was_compiled_asks_for_what_it_needs(monkeypatch, capsys):
+    """In a bare container the modules come from other machines, licences and Blender from packages."""
+    monkeypatch.setattr(needs, "is_installed", lambda package: False)
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
+    monkeypatch.setattr(build_addon, "find_blender", lambda name: pytest.fail("too early"))
+    assert build_addon.main(["pack"]) == 2
+    advice = capsys.readouterr().err
+    assert "libcgal-dev libboost-dev pybind11-dev python3-markdown python3-numpy blender" in advice
+    assert "cmake" not in advice
+
+
 SYSTEMS = {
     "linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],
     "linux-arm64": ["_medial.cpython-313-aarch64-linux-gnu.so"],
@@ -544,6 +555,17 @@ def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
     arm = "lib/_medial.cpython-313-aarch64-linux-gnu.so"
     assert "9.9 (Python 3.13 for Linux on arm64)." in licences.text([LINUX, arm])
     assert "9.9" not in licences.text([LINUX.replace("311", "313")])
+
+
+def test_licences_of_mingw_belong_to_what_was_compiled_here(tmp_path, monkeypatch):
+    """Modules of Microsoft's compiler, from another machine, have none of it."""
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    wanted = licences.Component("mingw-w64", "/no/such/*.a", "MIT and others")
+    monkeypatch.setattr(licences, "WINDOWS", (wanted,))
+    assert "mingw-w64" not in licences.text(["lib/_medial.cp311-win_amd64.pyd"])
+    (tmp_path / "mingw").mkdir()
+    with pytest.raises(Failure, match=r"Expected mingw-w64 as /no/such/\*\.a"):
+        licences.text(["lib/_medial.cp311-win_amd64.pyd"])
 
 
 def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):

@@ -2,6 +2,8 @@
 """Modules for Linux: older systems run them; for arm64, headers and names are those of the other processor."""
 
 import ctypes
+import platform
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -173,3 +175,14 @@ def test_what_older_systems_lack_is_in_the_module_and_works(tmp_path, monkeypatc
     module = compiled(tmp_path, ROOT / "native" / "python" / "older_systems.cpp")
     assert "exports PyInit__medial only" in check_module.check(module)[1]
     assert ctypes.CDLL(module).PyInit__medial() == 0
+
+
+def test_the_docs_say_what_modules_for_linux_ask_for():
+    compiled = sorted(paths.LIBRARY.glob("_medial.*-x86_64-linux-gnu.so"))
+    system = platform.freedesktop_os_release()
+    if not compiled or (system["ID"], system.get("VERSION_ID")) != ("debian", "12"):
+        pytest.skip("no module was built on Debian 12, as releases are")
+    stated = (ROOT / "docs" / "compatibility.md").read_text(encoding="utf-8")
+    for module in compiled:
+        (asked,) = re.findall(r"GLIBC ([\d.]+),", check_module.check(module)[1])
+        assert f"the modules ask for glibc {asked} and" in stated

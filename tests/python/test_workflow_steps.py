@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps of the workflows are run with the names of files that the jobs before them leave. What another system brings
+(lipo, codesign, gh) is a stand-in that says what it was asked for.
+"""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from native.packaging import pack  # noqa: E402 - found through the line above
+
+MODULES = {  # by the artifact that a job of systems.yml uploads
+    "modules-linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],
+    "modules-linux-arm64": ["_medial.cpython-313-aarch64-linux-gnu.so"],
+    "modules-windows-x64-3.11": ["_medial.cp311-win_amd64.pyd"],
+    "modules-windows-arm64-3.13": ["_medial.cp313-win_arm64.pyd"],
+    "modules-macos-arm64-3.11": ["_medial.cpython-311-darwin.so"],
+    "modules-macos-arm64-3.13": ["_medial.cpython-313-darwin.so"],
+    "modules-macos-x64-3.11": ["_medial.cpython-311-darwin.so"],
+}
+
+
+def commands(workflow, job):
+    """The commands of a job."""
+    yaml = pytest.importorskip("yaml")
+    text = (ROOT / ".github/workflows" / f"{workflow}.yml").read_text(encoding="utf-8")
+    return [step["run"] for step in yaml.safe_load(text)["jobs"][job]["steps"] if "run" in step]
+
+
+def step(workflow, job, words):
+    """The only command of a job that has these words."""
+    (found,) = [command for command in commands(workflow, job) if words in command]
+    return found
+
+
+def run(command, folder, **environment):
+    """As the service runs it; returns the exit code and what was said."""
+    path = f"{folder / 'bin'}:/usr/bin:/bin"
+    words = ["bash", "--noprofile", "--norc", "-e", "-c", command]
+    done = subprocess.run(
+        words,
+        cwd=folder,
+        env={"PATH": path, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    return done.returncode, done.stdout
+
+
+def put(folder, files):
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(content)
+
+
+def stand_in(folder, name, script='echo "$0" "$@" >> asked'):
+    put(folder, {f"bin/{name}": f"#!/bin/sh\n{script}\n"})
+    (folder / "bin" / name).chmod(0o755)
+
+
+HASHES = "aa  cube: solid\nbb  cube: wrap\ncc  ball\n"
+
+
+@pytest.mark.parametrize(
+    "other, equal",
+    [
+        (HASHES, True),
+        (HASHES.replace("\n", "\r\n"), True),
+        (HASHES.replace("bb", "00"), True),
+        (HASHES.replace("cc", "00"), False),
+        (HASHES.replace("cc  ball\n", ""), False),
+        ("", False),
+    ],
+)
+def test_hashes_of_systems_must_be_equal_but_for_wraps(tmp_path, other, equal):
+    put(tmp_path, {"hashes-linux-x64/hashes.txt": HASHES, "hashes-windows/hashes.txt": ""})
+    (tmp_path / "hashes-windows/hashes.txt").write_bytes(other.encode())
+    code, said = run(step("systems", "same_bytes", "diff"), tmp_path)
+    assert (code == 0) is equal, said
+
+
+def test_hashes_of_linux_that_are_missing_are_no_success(tmp_path):
+    put(tmp_path, {"hashes-windows/hashes.txt": HASHES})
+    assert run(step("systems", "same_bytes", "diff"), tmp_path)[0] != 0
+
+
+def test_modules_for_macs_of_all_pythons_reach_the_zips(tmp_path):
+    put(tmp_path, {f"{a}/{name}": a for a, names in MODULES.items() for name in names})
+    stand_in(
+        tmp_path,
+        "lipo",
+        'echo "$@" >> asked; while [ "$1" != -output ]; do shift; done; echo > "$2"',
+    )
+    for tool in ("strip", "codesign"):
+        stand_in(tmp_path, tool)
+    for command in commands("systems", "mac_modules"):
+        code, said = run(command, tmp_path)
+        assert code == 0, said
+    asked = (tmp_path / "asked").read_text().splitlines()
+    images = [
+        f"modules-macos-{name}-3.11/_medial.cpython-311-darwin.so" for name in ("arm64", "x64")
+    ]
+    assert asked[0] == f"-create {' '.join(images)} -output both/_medial.cpython-311-darwin.so"
+    assert sorted(path.name for path in (tmp_path / "both").iterdir()) == [
+        f"_medial.cpython-{digits}-darwin.so" for digits in ("311", "313")
+    ]
+    assert len(asked) == 5, "each is stripped and signed"
+
+
+def test_modules_of_all_systems_are_packed(tmp_path):
+    named = {**MODULES, "modules-macos": ["_medial.cpython-311-darwin.so"]}
+    put(tmp_path, {f"modules/{a}/{name}": a for a, names in named.items() for name in names})
+    code, said = run(step("systems", "zips", "blender_addon/lib"), tmp_path)
+    assert code == 0, said
+    packed = [path.name for path in (tmp_path / "blender_addon/lib").iterdir()]
+    for system, ending in pack.PLATFORMS.items():
+        assert any(name.endswith(ending) for name in packed), system
+    mac = tmp_path / "blender_addon/lib/_medial.cpython-311-darwin.so"
+    assert mac.read_text() == "modules-macos", "the one for both processors"
+
+
+@pytest.fixture
+def zips(tmp_path, monkeypatch):
+    """The zips of all systems by the names that packing gives them, in dist/ and zips/."""
+    monkeypatch.setattr(pack.paths, "DIST", Path("dist"))
+    names = [pack.archive_for(platform).name for platform in ("", *pack.PLATFORMS)]
+    for folder in ("dist", "zips"):
+        put(tmp_path, {f"{folder}/{name}": name for name in names})
+    return names
+
+
+def test_blenders_tests_get_the_zip_for_all_systems(tmp_path, zips):
+    stand_in(tmp_path, "python", 'for word in "$@"; do echo "$word" >> asked; done')
+    code, said = run(step("systems", "blender", "tests/addon/run.py"), tmp_path)
+    assert code == 0, said
+    asked = (tmp_path / "asked").read_text().splitlines()
+    assert asked == ["tests/addon/run.py", "--zip", f"dist/{zips[0]}", "--bpy", "python"]
+
+
+def test_checksums_agree_with_all_zips(tmp_path, zips):
+    assert run(step("systems", "zips", "SHA256SUMS"), tmp_path)[0] == 0
+    code, said = run("cd dist && sha256sum --check --strict SHA256SUMS", tmp_path)
+    assert code == 0 and said.count(": OK\n") == len(zips) == 7
+
+
+def test_a_release_has_zips_wheels_and_hashes(tmp_path, zips):
+    put(tmp_path, {"wheels/a.whl": "", "wheels/b.whl": "", "hashes/hashes.txt": HASHES})
+    stand_in(tmp_path, "gh", 'for word in "$@"; do echo "$word" >> asked; done')
+    names = {"GITHUB_REF_NAME": "v1.2.3", "GITHUB_REPOSITORY": "a/b"}
+    code, said = run(step("release", "draft", "gh release"), tmp_path, **names)
+    assert code == 0, said
+    asked = (tmp_path / "asked").read_text().splitlines()
+    assert asked[:3] == ["release", "create", "v1.2.3"] and "--draft" in asked
+    files = [word for word in asked if (tmp_path / word).is_file()]
+    assert len(files) == len(zips) + 3
+
+
+def test_shell_of_all_steps_is_valid():
+    """Also of those that nothing here can run."""
+    yaml = pytest.importorskip("yaml")
+    checked = 0
+    for file in (ROOT / ".github/workflows").glob("*.yml"):
+        for job in yaml.safe_load(file.read_text(encoding="utf-8"))["jobs"].values():
+            for one in filter(None, (one.get("run") for one in job.get("steps", ()))):
+                done = subprocess.run(["bash", "-n", "-c", one], capture_output=True, text=True)
+                assert done.returncode == 0, (one, done.stderr)
+                checked += 1
+    assert checked > 30 and shutil.which("bash")
