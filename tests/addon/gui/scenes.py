@@ -940,6 +940,7 @@ def turned_by_mouse(thing, name, angle):
     xdotool("click", 1)
     yield patience(0.8)
     turned = np.degrees(before.rotation_difference(bone.matrix.to_quaternion()).angle)
+    turned = min(turned, 360.0 - turned)  # a quaternion and its negative are one turn
     assert 0.5 * abs(angle) < turned < 1.3 * abs(angle), (name, turned)
 
 
