@@ -312,7 +312,7 @@ class MeshFollower:
         self._poses.append((frame, moved, others))
 
     def _keys(self) -> dict[str, list[tuple[int, Matrix]]]:
-        """What Blender keys for the poses: of each bone the transforms against its parent."""
+        """The transforms of each bone against its parent, as Blender keys them for the poses."""
         found: dict[str, list[tuple[int, Matrix]]] = {}
         bones = sorted(self.armature.data.bones, key=lambda bone: len(bone.parent_recursive))
         for frame, moved, others in self._poses:

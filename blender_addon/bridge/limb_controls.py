@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What moves the bones of a limb together, by Blender's own constraints: a target, or a line through controls."""
+"""Limbs are moved together by Blender's own constraints: by a target, or by a line through controls."""
 
 from __future__ import annotations
 

@@ -530,7 +530,7 @@ SKELETON_OPTIONS = options_of(SkeletonSettings)
 
 
 class LimbControl(Enum):
-    """What moves the bones of a limb together."""
+    """The bones of a limb are moved one by one, by a target, or along a line."""
 
     NONE = "NONE"
     TARGET = "TARGET"

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Centre lines of pieces of real neurons beside those of other programs, judged by the lines that made the mesh.
 
-    python3 lab/benchmarks/neurons.py navis-1.12.0-py3-none-any.whl [--neurons 3] [--output table.md]
+    python3 lab/benchmarks/neurons.py navis-1.12.0-py3-none-any.whl [--neurons 3] [--vmtk PYTHON] [--output table.md]
 
-The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piece of the tree in a cube of 900 units
-with the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The
-mesh is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius. Needs
-scikit-image; kimimaro, compas_cgal, skeletor with trimesh, and VMTK, all from PyPI, are left out by name where they are
-absent. VMTK runs in the Python that --vmtk names. It is told all ends but one as targets and that one as source.
+The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piece of the tree in a cube of 600 units with
+the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The mesh
+is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius, and the options
+of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, skeletor with trimesh, and VMTK, all from PyPI,
+are left out by name where they are absent. VMTK runs in the Python that --vmtk names. It is told all ends: one as the
+source, the others as targets.
 
 ends: of the lines that a program found; right: ends of the tree within 3 radii of one of these, each one counted once;
 off: distance of places on its lines from the lines of the tree, mean and 95th percentile, in radii there; bare: the
 share of the lines of the tree that is farther than a radius from its lines; radius: how far the radius that is said is
-off, median and 95th percentile, in percent; s: of the processor, with voxels but without the mesh.
+off, median and 95th percentile, in percent; s: of the processor, without the mesh and the voxels.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from medial_axis.core.skeleton.compute import compute_skeleton  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from skeletons import Lines, cgal, wavefront  # noqa: E402
 
-CUBE, LEAST = 900.0, 15.0
+CUBE, LEAST = 600.0, 15.0
 VOXEL = LEAST / 3
 HEADER = ["neuron", "program", "ends", "right", "loops", "off", "bare", "radius", "s"]
 
@@ -174,7 +175,7 @@ def kimimaro(volume: np.ndarray, first: np.ndarray) -> Lines:
     import kimimaro as program
 
     labels = np.asfortranarray((volume < 0.0).astype(np.uint8))
-    params = {"scale": 1.5, "const": LEAST, "soma_detection_threshold": 1e9}
+    params = {"scale": 1.5, "const": 37.5, "soma_detection_threshold": 1e9}
     made = program.skeletonize(
         labels, params, dust_threshold=0, anisotropy=(VOXEL,) * 3, progress=False, parallel=1
     )
