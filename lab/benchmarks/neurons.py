@@ -3,12 +3,12 @@
 
     python3 lab/benchmarks/neurons.py navis-1.12.0-py3-none-any.whl [--neurons 3] [--vmtk PYTHON] [--output table.md]
 
-The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piece of the tree in a cube of 600 units with
-the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The mesh
-is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius, and the options
-of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, skeletor with trimesh, and VMTK, all from PyPI,
-are left out by name where they are absent. VMTK runs in the Python that --vmtk names. It is told all ends: one as the
-source, the others as targets.
+The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piece of the tree in a cube of 600 units
+with the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The
+mesh is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius, and the
+options of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, skeletor with trimesh, and VMTK, all
+from PyPI, are left out by name where they are absent. VMTK runs in the Python that --vmtk names. It is told all ends:
+one as the source, the others as targets.
 
 ends: of the lines that a program found; right: ends of the tree within 3 radii of one of these, each one counted once;
 off: distance of places on its lines from the lines of the tree, mean and 95th percentile, in radii there; bare: the
