@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Centre lines of pieces of real neurons beside those of other programs, judged by the lines that made the mesh.
 
-    python3 lab/benchmarks/neurons.py navis-1.12.0-py3-none-any.whl [--neurons 3] [--vmtk PYTHON] [--output table.md]
+    python3 lab/benchmarks/neurons.py navis-1.12.0-py3-none-any.whl [--neurons 3] [--output table.md]
 
 The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piece of the tree in a cube of 600 units
 with the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The
 mesh is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius, and the
-options of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, skeletor with trimesh, and VMTK, all
-from PyPI, are left out by name where they are absent. VMTK runs in the Python that --vmtk names. It is told all ends:
-one as the source, the others as targets.
+options of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, and skeletor with trimesh, all from
+PyPI, are left out by name where they are absent.
 
 ends: of the lines that a program found; right: ends of the tree within 3 radii of one of these, each one counted once;
 off: distance of places on its lines from the lines of the tree, mean and 95th percentile, in radii there; bare: the
@@ -21,9 +20,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import io
-import subprocess
 import sys
-import tempfile
 import time
 import zipfile
 from dataclasses import dataclass
@@ -183,52 +180,6 @@ def kimimaro(volume: np.ndarray, first: np.ndarray) -> Lines:
     return Lines(first + found.vertices.astype(np.float64), found.edges, found.radii)
 
 
-IN_VMTK = """
-import json, sys
-import numpy as np
-import vtk
-from vmtk import vmtkscripts
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-given = np.load(sys.argv[1])
-surface = vtk.vtkPolyData()
-points = vtk.vtkPoints()
-points.SetData(numpy_to_vtk(given["points"], deep=1))
-surface.SetPoints(points)
-cells = vtk.vtkCellArray()
-rows = np.column_stack((np.full(len(given["triangles"]), 3), given["triangles"])).astype(np.int64)
-cells.SetCells(len(rows), numpy_to_vtkIdTypeArray(rows.ravel(), deep=1))
-surface.SetPolys(cells)
-lines = vmtkscripts.vmtkCenterlines()
-lines.Surface, lines.SeedSelectorName = surface, "idlist"
-lines.SourceIds, lines.TargetIds = given["seeds"][:1].tolist(), given["seeds"][1:].tolist()
-lines.Execute()
-out = lines.Centerlines
-places = vtk_to_numpy(out.GetPoints().GetData())
-radius = vtk_to_numpy(out.GetPointData().GetArray("MaximumInscribedSphereRadius"))
-edges = []
-for k in range(out.GetNumberOfCells()):
-    ids = out.GetCell(k).GetPointIds()
-    row = [ids.GetId(i) for i in range(ids.GetNumberOfIds())]
-    edges += list(zip(row, row[1:]))
-np.savez(sys.argv[2], points=places, radius=radius, edges=np.array(edges))
-import resource
-print("SECONDS", resource.getrusage(resource.RUSAGE_SELF).ru_utime)
-"""
-
-
-def vmtk(python: str, shape: Shape, tree: Tree) -> tuple[Lines, float]:
-    """The lines of VMTK from one end to all others, and its seconds."""
-    seeds = cKDTree(shape.points).query(tree.places[tree.tips])[1]
-    with tempfile.TemporaryDirectory() as folder:
-        given, found = Path(folder, "given.npz"), Path(folder, "found.npz")
-        np.savez(given, points=shape.points, triangles=shape.triangles, seeds=np.unique(seeds))
-        words = [python, "-c", IN_VMTK, str(given), str(found)]
-        done = subprocess.run(words, capture_output=True, text=True, check=True, timeout=900)
-        seconds = float(done.stdout.split("SECONDS")[1])
-        read = np.load(found)
-        return Lines(read["points"], read["edges"], read["radius"]), seconds
-
-
 # --- how good they are
 
 
@@ -277,7 +228,7 @@ def matched(tree: Tree, ends: np.ndarray) -> int:
     return int((maximum_bipartite_matching(near) >= 0).sum())
 
 
-def rows_of(name: str, tree: Tree, python: str | None):
+def rows_of(name: str, tree: Tree):
     volume, first = volume_of(tree)
     shape = mesh_of(volume, first)
     sizes = f"{name}, {len(shape.points):,} vertices"
@@ -296,23 +247,17 @@ def rows_of(name: str, tree: Tree, python: str | None):
         start = time.process_time()
         lines = run()
         yield row(sizes, program, lines, tree, time.process_time() - start)
-    if python is None:
-        yield [sizes, "VMTK, told the ends", "left out: no --vmtk", *[""] * 6]
-    else:
-        lines, seconds = vmtk(python, shape, tree)
-        yield row(sizes, "VMTK, told the ends", lines, tree, seconds)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("wheel", type=Path)
     parser.add_argument("--neurons", type=int, default=3)
-    parser.add_argument("--vmtk", help="a Python that has VMTK")
     parser.add_argument("--output", type=Path)
     words = parser.parse_args()
     rows = []
     for name, tree in trees_of(words.wheel, words.neurons):
-        for found in rows_of(name, tree, words.vmtk):
+        for found in rows_of(name, tree):
             print(" | ".join(found), file=sys.stderr, flush=True)
             rows.append(found)
     text = _module.markdown(HEADER, rows)
