@@ -13,7 +13,8 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.errors import InvalidInputError
-from ..core.skeleton.names import target_of
+from ..core.settings import LimbControl
+from .limb_controls import constrain, controls_of, release
 from .output_object import SOURCE, Product, check_mode, is_gone, new_object, place, remember
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ _SHORTEST = 1e-6  # Blender deletes shorter bones
 BONES = "ma_bones"
 MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
 _FRAME = "ma_frame"  # the frame of the rig that the armature has now
-IK = "Medial Axis IK"  # the constraints that were made here
 
 
 ARMATURE = Product(" Armature", (BONES,), type="ARMATURE")
@@ -116,7 +116,7 @@ def write_armature(
     rig: Rig,
     frame: np.ndarray,
     taken: set[str],
-    ik: bool = False,
+    ik: LimbControl = LimbControl.NONE,
     into: bpy.types.Object | None = None,
 ) -> bpy.types.Object:
     """Make the armature of a source, or give the existing one other bones; the source is not bound to it.
@@ -132,8 +132,8 @@ def write_armature(
         Where the bones lie in the world; rotation and translation only.
     taken : set of str
         Names of vertex groups that belong to something else, which no new bone may have.
-    ik : bool
-        Limbs get targets.
+    ik : LimbControl
+        What moves the bones of a limb together.
     into : Object, optional
         An armature of the artist's own, which stays where it is.
     """
@@ -154,6 +154,9 @@ def write_armature(
         _check_lengths(rig, to_local)
         mark = _new_mark(thing, source)
     moved = to_local @ np.array(thing.get(_FRAME, rig.frame)).reshape(4, 4) if own else np.eye(4)
+    key = MADE + mark
+    if thing.pose is not None:
+        release(source, [bone for bone in thing.pose.bones if key in bone.bone])
     with active(thing):
         bpy.ops.object.mode_set(mode="EDIT")
         try:
@@ -161,7 +164,8 @@ def write_armature(
             _fill(thing.data, rig, to_local, mark, taken, ik)
         finally:
             bpy.ops.object.mode_set(mode="OBJECT")
-    _constrain(thing, rig, mark, ik)
+    named = {bone[key]: bone.name for bone in thing.data.bones if key in bone}
+    constrain(source, thing, rig, {k: thing.pose.bones[v] for k, v in named.items()}, ik)
     if own:
         remember(thing, source, rig.made_of.points, rig.made_of.duplicates, rig.warnings)
         thing[BONES], thing[_FRAME] = rig.bones.count, rig.frame.ravel().tolist()
@@ -231,19 +235,19 @@ def _fill(
     to_local: NDArray[np.float64],
     mark: str,
     taken: set[str],
-    ik: bool,
+    ik: LimbControl,
 ) -> None:
     """Give the armature the bones of a rig; a bone that was made before for the same place in it is used again."""
     bones, turn = rig.bones, to_local[:3, :3]
     head, tail = (ends @ turn.T + to_local[:3, 3] for ends in (bones.head, bones.tail))
     scale = abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
     key = MADE + mark
-    limbs = [limb for limb in rig.limbs if len(limb) > 1] if ik else []
-    targets = [target_of(rig.names[limb[0]]) for limb in limbs]
+    controls = [control for limb in rig.limbs for control in controls_of(rig, limb, ik)]
     old = {bone[key]: bone for bone in armature.edit_bones if key in bone}
-    for name in old.keys() - {*rig.names, *targets}:
+    names = [*rig.names, *(control.name for control in controls)]
+    for name in old.keys() - set(names):
         armature.edit_bones.remove(old.pop(name))
-    made = [_bone(armature, old, key, name, taken) for name in (*rig.names, *targets)]
+    made = [_bone(armature, old, key, name, taken) for name in names]
     for number, bone in enumerate(made[: bones.count]):
         _lay(bone, head[number], tail[number], turn @ bones.up[number])
         bone.head_radius = scale * float(bones.head_radius[number])
@@ -252,11 +256,13 @@ def _fill(
         if bones.parent[number] >= 0:
             bone.parent = made[bones.parent[number]]
             bone.use_connect = bool(bones.connected[number])
-    for limb, bone in zip(limbs, made[bones.count :], strict=True):
-        last = limb[-1]
-        beyond = tail[last] + (tail[last] - head[last]) / 2
-        _lay(bone, tail[last], beyond, turn @ bones.up[last])
+    for control, bone in zip(controls, made[bones.count :], strict=True):
+        start = (tail if control.at_tail else head)[control.bone]
+        beyond = start + (tail[control.bone] - head[control.bone]) / 2
+        _lay(bone, start, beyond, turn @ bones.up[control.bone])
         bone.use_deform = False
+        if control.parent >= 0:
+            bone.parent = made[control.parent]
 
 
 def _bone(
@@ -288,24 +294,3 @@ def _free_name(name: str, taken: set[str]) -> str:
     """The name, or the first with a number behind it that no foreign vertex group has."""
     numbered = (f"{name}.{number:03d}" for number in itertools.count(1))
     return name if name not in taken else next(n for n in numbered if n not in taken)
-
-
-def _constrain(armature: bpy.types.Object, rig: Rig, mark: str, ik: bool) -> None:
-    """Let limbs reach for their targets; their joints but the first turn about one axis, so they bend in a plane."""
-    key = MADE + mark
-    by_name = {
-        bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone
-    }
-    for bone in by_name.values():
-        for constraint in [c for c in bone.constraints if c.type == "IK" and c.name == IK]:
-            bone.constraints.remove(constraint)
-            bone.lock_ik_y = bone.lock_ik_z = False
-    for limb in [limb for limb in rig.limbs if len(limb) > 1] if ik else []:
-        last = by_name[rig.names[limb[-1]]]
-        reach = last.constraints.new("IK")
-        reach.name, reach.target = IK, armature
-        reach.subtarget = by_name[target_of(rig.names[limb[0]])].name
-        reach.chain_count = len(limb)
-        for number in limb[1:]:
-            bone = by_name[rig.names[number]]
-            bone.lock_ik_y = bone.lock_ik_z = True

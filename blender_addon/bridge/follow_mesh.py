@@ -20,13 +20,12 @@ from ..core.errors import InvalidInputError
 from ..core.skeleton.follow import Follower
 from ..core.skeleton.followed import Followed
 from ..core.small_matrices import placed
-from .armature_object import IK, MADE, in_rest, mark_of, rig_of
+from .armature_object import MADE, in_rest, mark_of, rig_of
+from .limb_controls import IK, controls_that_end_with
 from .mesh_arrays import read_polygons, read_positions
 from .source_state import state_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from ..core.skeleton.follow import Pose
@@ -35,6 +34,7 @@ FOLLOWS = "ma_follows"  # on an action: its keys were made here
 _REST = "ma_rest"  # on an armature: the frame at which its bones were made
 _REST_SHAPE = "ma_rest_shape"  # a hash of the source at that frame
 _BASIS = ("location", "rotation", "scale")
+_INHERITED = "ma_inherited"  # on a bone: how it inherited sizes before it was stretched
 
 
 def remember_rest(armature: bpy.types.Object, source: bpy.types.Object) -> None:
@@ -82,7 +82,7 @@ def check_followable(source: bpy.types.Object) -> bpy.types.Object:
 
 
 class MeshFollower:
-    """The bones of a source, and their poses at the frames that were added.
+    """The bones of a source, and their poses at the frames that were added; bones keep their sizes, or stretch.
 
     The modifier that binds the source is off until `close`; `bake` leaves it off, because the mesh has its motion
     already.
@@ -93,12 +93,13 @@ class MeshFollower:
         There are no such bones, the source is not as it was when they were made, or has no weights.
     """
 
-    def __init__(self, source: bpy.types.Object) -> None:
+    def __init__(self, source: bpy.types.Object, stretch: bool = False) -> None:
+        self._stretch = stretch
         self.source, self.armature = source, check_followable(source)
         self._mark = mark_of(self.armature, source) or ""
         self._scene = bpy.context.scene
         self._shown = self._scene.frame_current_final
-        self._keys: dict[str, list[tuple[int, Matrix]]] = {}
+        self._poses: list[tuple[int, dict[str, Matrix], dict[str, Matrix]]] = []
         self._moves = False
         self._open = ExitStack()
         self._open.callback(self._set_frame, self._shown)
@@ -154,9 +155,12 @@ class MeshFollower:
         for name in self._names:  # a solver of IK would bend limbs anew
             for constraint in self.armature.pose.bones[name].constraints:
                 constraint.mute |= constraint.name == IK
-        _start_action(self.armature, set(self._keys))
-        for name, keys in self._keys.items():
-            _key(self.armature.pose.bones[name], keys)
+        for name in self._poses[0][1]:
+            _inherit_sizes(self.armature.data.bones[name], not self._stretch)
+        keyed = self._keys()
+        _start_action(self.armature, set(keyed))
+        for name, keys in keyed.items():
+            _key(self.armature.pose.bones[name], keys, self._stretch and name in self._names)
         self._set_frame(self._shown)
 
     @property
@@ -202,19 +206,21 @@ class MeshFollower:
                     f"Expected bones that may move, found '{name}' connected to '{bones[name].parent.name}', which "
                     "has no weights; turn Connected off"
                 )
+        head, tail = (
+            np.array([getattr(bones[name], end) for name in self._names], np.float64)
+            for end in ("head_local", "tail_local")
+        )
+        length = np.sqrt(((tail - head) ** 2).sum(axis=1))
         self._follower = Follower(
-            np.array([bones[name].head_local for name in self._names], np.float64),
+            head,
             np.array([row.get(name, -1) for name in above], np.int32),
             self._rest_places,
             vertex,
             np.array([row[name] for name in group], np.int64),
             weight,
+            (tail - head) / length[:, None] if self._stretch else None,
         )
-        ends = (
-            np.array([getattr(bones[name], end) for name in self._names], np.float64)
-            for end in ("head_local", "tail_local")
-        )
-        self.found = Followed(self._names, self._follower.thickness(*ends))
+        self.found = Followed(self._names, self._follower.thickness(head, tail), self._stretch)
         self._pose = self._follower.at_rest()
 
     def _weights(self) -> tuple[NDArray[np.int64], list[str], NDArray[np.float64]]:
@@ -287,31 +293,46 @@ class MeshFollower:
         return pose, places
 
     def _keep(self, frame: int, pose: Pose) -> None:
-        """Remember what Blender keys for a pose: of each bone the transform against its parent."""
+        """Remember where a pose puts bones and their controls, and how all others are posed at this frame."""
         moved = {
             name: Matrix(np.vstack((move, (0.0, 0.0, 0.0, 1.0))).tolist())
             for name, move in zip(self._names, pose.matrices, strict=True)
         }
         moved |= {
-            target: moved[name]
+            control: moved[limb]
             for name in self._names
-            for target in _targets(self.armature.pose.bones[name])
+            for control, limb in controls_that_end_with(self.armature.pose.bones[name])
+            if limb in moved
         }
-        poses: dict[str, Matrix] = {}
-        for bone in sorted(self.armature.data.bones, key=lambda b: len(b.parent_recursive)):
-            parent = {}
-            if bone.parent is not None:
-                parent["parent_matrix"] = poses[bone.parent.name]
-                parent["parent_matrix_local"] = bone.parent.matrix_local
-            if bone.name in moved:
-                poses[bone.name] = moved[bone.name] @ bone.matrix_local
-                basis = bone.convert_local_to_pose(
-                    poses[bone.name], bone.matrix_local, invert=True, **parent
-                )
-                self._keys.setdefault(bone.name, []).append((frame, basis))
-            else:
-                basis = self.armature.pose.bones[bone.name].matrix_basis
-                poses[bone.name] = bone.convert_local_to_pose(basis, bone.matrix_local, **parent)
+        others = {
+            bone.name: bone.matrix_basis.copy()
+            for bone in self.armature.pose.bones
+            if bone.name not in moved
+        }
+        self._poses.append((frame, moved, others))
+
+    def _keys(self) -> dict[str, list[tuple[int, Matrix]]]:
+        """The transforms of each bone against its parent, as Blender keys them for the poses."""
+        found: dict[str, list[tuple[int, Matrix]]] = {}
+        bones = sorted(self.armature.data.bones, key=lambda bone: len(bone.parent_recursive))
+        for frame, moved, others in self._poses:
+            poses: dict[str, Matrix] = {}
+            for bone in bones:
+                parent = {}
+                if bone.parent is not None:
+                    parent["parent_matrix"] = poses[bone.parent.name]
+                    parent["parent_matrix_local"] = bone.parent.matrix_local
+                if bone.name in moved:
+                    poses[bone.name] = moved[bone.name] @ bone.matrix_local
+                    basis = bone.convert_local_to_pose(
+                        poses[bone.name], bone.matrix_local, invert=True, **parent
+                    )
+                    found.setdefault(bone.name, []).append((frame, basis))
+                else:
+                    poses[bone.name] = bone.convert_local_to_pose(
+                        others[bone.name], bone.matrix_local, **parent
+                    )
+        return found
 
 
 def _tree(places: NDArray[np.float64], faces: tuple[NDArray[np.int32], ...]) -> BVHTree:
@@ -342,11 +363,6 @@ def _above(bone: bpy.types.Bone, row: dict[str, int]) -> str:
     return next((above.name for above in bone.parent_recursive if above.name in row), "")
 
 
-def _targets(bone: bpy.types.PoseBone) -> Iterator[str]:
-    """The bones that a limb that ends in a bone reaches for; they go where it ends."""
-    return (c.subtarget for c in bone.constraints if c.type == "IK" and c.name == IK)
-
-
 def _start_action(armature: bpy.types.Object, names: set[str]) -> None:
     """Give an armature an action without keys of some bones; an artist's action stays in the file as it is."""
     data = armature.animation_data or armature.animation_data_create()
@@ -375,8 +391,17 @@ def _curves(action: bpy.types.Action) -> list[bpy.types.bpy_prop_collection]:
     return [bag.fcurves for strip in strips for bag in strip.channelbags]
 
 
-def _key(bone: bpy.types.PoseBone, keys: list[tuple[int, Matrix]]) -> None:
-    """Key the rotation of a bone in its own mode, and its location where it is not that of its parent's joint."""
+def _inherit_sizes(bone: bpy.types.Bone, wanted: bool) -> None:
+    """Let a bone not inherit the sizes of its parent, or inherit them as it did before."""
+    if not wanted and _INHERITED not in bone:
+        bone[_INHERITED], bone.inherit_scale = bone.inherit_scale, "NONE"
+    elif wanted and _INHERITED in bone:
+        bone.inherit_scale = bone[_INHERITED]
+        del bone[_INHERITED]
+
+
+def _key(bone: bpy.types.PoseBone, keys: list[tuple[int, Matrix]], stretch: bool) -> None:
+    """Key the rotation of a bone in its own mode, its location where its parent's joint moves otherwise, and sizes."""
     quaternions = bone.rotation_mode == "QUATERNION"
     mode = bone.rotation_mode
     places = [matrix.to_translation() for _, matrix in keys]
@@ -390,6 +415,9 @@ def _key(bone: bpy.types.PoseBone, keys: list[tuple[int, Matrix]]) -> None:
         if moves:
             bone.location = place
             bone.keyframe_insert("location", frame=frame, group=bone.name)
+        if stretch:
+            bone.scale = matrix.to_scale()
+            bone.keyframe_insert("scale", frame=frame, group=bone.name)
         if quaternions:
             if before is not None:
                 turn.make_compatible(before)

@@ -529,6 +529,14 @@ class SkeletonSettings(Options):
 SKELETON_OPTIONS = options_of(SkeletonSettings)
 
 
+class LimbControl(Enum):
+    """The bones of a limb are moved one by one, by a target, or along a line."""
+
+    NONE = "NONE"
+    TARGET = "TARGET"
+    SPLINE = "SPLINE"
+
+
 @dataclass(frozen=True)
 class RigSettings(Options):
     """The bones that a rig has along a skeleton."""
@@ -541,10 +549,21 @@ class RigSettings(Options):
         limits=(0, 100),
         soft_limits=(0, 8),
     )
-    ik: bool = switch(
+    ik: LimbControl = choice(
         "IK",
-        "Each limb with two or more bones gets a target that it reaches for; its joints bend in their plane",
-        default=False,
+        "What moves the bones of each limb that has two or more",
+        default=LimbControl.NONE,
+        items={
+            LimbControl.NONE: ("Off", "Each bone is turned by itself"),
+            LimbControl.TARGET: (
+                "Target",
+                "A target at its end that it reaches for; its joints bend in their plane",
+            ),
+            LimbControl.SPLINE: (
+                "Spline",
+                "A control at each joint; the limb lies along the line through them, for tails and tentacles",
+            ),
+        },
     )
 
 

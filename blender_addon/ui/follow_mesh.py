@@ -4,7 +4,7 @@
 import time
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ..bridge.armature_object import rig_of
 from ..bridge.follow_mesh import MeshFollower
@@ -35,6 +35,11 @@ class OBJECT_OT_medial_axis_follow(bpy.types.Operator):
 
     frames: StringProperty(
         name="Frames", description="Such as 1-250, 1-250:10 or 1,5,9-12; empty: those of the scene"
+    )
+    stretch: BoolProperty(
+        name="Stretch",
+        description="Bones also change their lengths and thicknesses, and do not inherit those of their parents",
+        default=False,
     )
 
     @classmethod
@@ -98,7 +103,7 @@ class OBJECT_OT_medial_axis_follow(bpy.types.Operator):
         """Fit all frames of all sources; yields what is done after each frame, in words."""
         for name in names:
             try:
-                follower = MeshFollower(bpy.data.objects[name])
+                follower = MeshFollower(bpy.data.objects[name], self.stretch)
                 try:
                     for number, frame in enumerate(frames, 1):
                         follower.add(frame)

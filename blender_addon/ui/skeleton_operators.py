@@ -24,6 +24,7 @@ from ..core.settings import (
     OPTIONS,
     RIG_OPTIONS,
     SKELETON_OPTIONS,
+    LimbControl,
     SkeletonSettings,
 )
 from ..core.skeleton.compute import compute_skeleton
@@ -231,7 +232,7 @@ class OBJECT_OT_medial_axis_armature(
 
     def write(self, thing, rig, frame):
         taken, into = groups_of_others(thing), find_armature(self.armature)
-        made = write_armature(thing, rig, frame, taken, self.ik, into)
+        made = write_armature(thing, rig, frame, taken, LimbControl(self.ik), into)
         with same_state(thing):
             self._bind(thing, made, rig)
         remember_rest(made, thing)

@@ -188,6 +188,84 @@ def test_a_mesh_that_shape_keys_bend():
     assert max(angle[name] for name in ("pelvis", "limb.01.02.R", "limb.02.02.L")) < 2.0
 
 
+def test_bones_stretch_as_the_bones_did_that_move_the_mesh():
+    """Both armatures have the same joints and weights; bones have sizes of their own, along and across."""
+    source, mover = actor()
+    rng = np.random.default_rng(4)
+    for bone in mover.data.bones:
+        bone.inherit_scale = "NONE"
+    for bone in mover.pose.bones:
+        for frame in FRAMES:
+            along, across = 2.0 ** (rng.uniform(-0.5, 0.5, 2) * (frame > 1))
+            bone.scale = across, along, across
+            bone.keyframe_insert("scale", frame=frame)
+    at(1)
+    before = {frame: seen(source, frame) for frame in FRAMES}
+    at(1)
+    make(source)
+    thing = follow(source, stretch=True)
+    for frame in FRAMES:
+        wanted, found = tails(mover, frame), tails(thing, frame)
+        for name, place in wanted.items():
+            np.testing.assert_allclose(found[name], place, atol=0.005)
+    modifiers = {m.object: m for m in source.modifiers}
+    modifiers[mover].show_viewport, modifiers[thing].show_viewport = False, True
+    for frame in FRAMES:
+        np.testing.assert_allclose(seen(source, frame), before[frame], atol=0.01)
+
+
+def grown_figure():
+    """A figure whose arms shape keys make 1.5 times as long from the shoulder on."""
+    source = figure()
+    points = positions(source.data)
+    grown = points.copy()
+    arm = np.abs(points[:, 0]) > 0.3
+    start, way = np.array((0.3, 0.0, 1.45)), np.array((0.64, 0.0, -0.77))
+    for side in (1, -1):
+        here = arm & (side * points[:, 0] > 0)
+        joint, along = start * (side, 1, 1), way * (side, 1, 1)
+        share = np.maximum((points[here] - joint) @ along, 0.0)
+        grown[here] += 0.5 * share[:, None] * along
+    for name, places in (("Basis", points), ("Grown", grown)):
+        key = source.shape_key_add(name=name)
+        key.data.foreach_set("co", places.ravel())
+    for frame in FRAMES:
+        key.value = (frame - 1) / 2
+        key.keyframe_insert("value", frame=frame)
+    at(1)
+    return source
+
+
+def test_bones_that_stretch_follow_limbs_that_grow(capfd):
+    """The mesh that the stretched bones move is four times closer than with bones that keep their lengths."""
+    source = grown_figure()
+    before = {frame: seen(source, frame) for frame in FRAMES}
+    at(1)
+    thing = make(source, per_limb=2)
+    inherits = {bone.name: bone.inherit_scale for bone in thing.data.bones}
+    off = {}
+    for stretch in (False, True, False):
+        reports(capfd)
+        follow(source, stretch=stretch)
+        said = [text for _, text in reports(capfd)]
+        assert any("which bones keep without Stretch" in text for text in said) != stretch
+        (own,) = (m for m in source.modifiers if m.type == "ARMATURE")
+        key = source.data.shape_keys.key_blocks["Grown"]
+        key.mute, own.show_viewport = True, True
+        off[stretch] = max(np.abs(seen(source, f) - before[f]).max() for f in FRAMES)
+        key.mute, own.show_viewport = False, False
+        assert (inherits == {b.name: b.inherit_scale for b in thing.data.bones}) != stretch
+        scaled = [path for path, *_ in curves(thing) if path.endswith("scale")]
+        assert bool(scaled) == stretch
+        if stretch:
+            for bone in thing.evaluated_get(at(3)).pose.bones:
+                if bone.parent and bone.bone.use_connect:
+                    assert (bone.head - bone.parent.tail).length < 1e-4
+            hand = thing.evaluated_get(at(3)).pose.bones["limb.01.02.L"]
+            assert hand.length > 1.3 * hand.bone.length
+    assert 4 * off[True] < off[False] and off[True] < 0.06, off
+
+
 def state():
     return (
         [[m.show_viewport for m in thing.modifiers] for thing in bpy.data.objects],
@@ -307,22 +385,30 @@ def test_again_replaces_the_keys_and_nothing_of_an_artist():
     assert {count for path, _, count in curves(cast) if "cape" not in path} == {2}
 
 
-def test_targets_of_limbs_follow_too():
+@pytest.mark.parametrize("ik", ["TARGET", "SPLINE"])
+def test_controls_of_limbs_follow_too(ik):
+    last = {"TARGET": "IK.limb.02", "SPLINE": "IK.limb.02.03"}[ik]
     source, _ = actor(per_limb=2)
     before = {frame: seen(source, frame) for frame in FRAMES}
     at(1)
-    thing = make(source, per_limb=2, ik=True)
+    thing = make(source, per_limb=2, ik=ik)
     follow(source)
     for frame in FRAMES:
         pose = {b.bone["ma_bone"]: b for b in thing.evaluated_get(at(frame)).pose.bones}
         for side in "LR":
-            foot, target = pose[f"limb.02.02.{side}"], pose[f"IK.limb.02.{side}"]
+            foot, target = pose[f"limb.02.02.{side}"], pose[f"{last}.{side}"]
             assert (foot.tail - target.head).length < 1e-3
     assert all(c.mute for b in thing.pose.bones for c in b.constraints)
     mover, own = (m for m in source.modifiers if m.type == "ARMATURE")
     mover.show_viewport, own.show_viewport = False, True
     for frame in FRAMES:
         assert np.abs(seen(source, frame) - before[frame]).max() < 0.02
+    for bone in thing.pose.bones:
+        for constraint in bone.constraints:
+            constraint.mute = False
+    if ik == "SPLINE":  # a target bends a limb in its plane, these turns do not
+        for frame in FRAMES:
+            assert np.abs(seen(source, frame) - before[frame]).max() < 0.05
 
 
 def test_a_limb_that_shrinks_into_the_body_is_told(capfd):

@@ -10,7 +10,7 @@ from mathutils import Matrix
 from scene import addon, contents, link, positions, refuse, select, world_positions
 
 
-def figure(name="Figure"):
+def figure(name="Figure", tail=False):
     """A figure by Blender's Skin modifier, symmetric in X, that looks to -Y; its knees bend, its arms hang aslant."""
     joints = {
         "pelvis": (0, 0, 1.0, 0.2),
@@ -31,6 +31,9 @@ def figure(name="Figure"):
         ("knee", "ankle"),
     ]
     bones += [("chest", "shoulder"), ("shoulder", "elbow"), ("elbow", "hand")]
+    if tail:
+        joints |= {"rump": (0, 0.35, 0.95, 0.09), "tail": (0, 0.9, 0.8, 0.05)}
+        bones += [("pelvis", "rump"), ("rump", "tail")]
     rows, places, edges = {}, [], []
     for side in (1, -1):
         for joint, (x, *rest) in joints.items():
@@ -115,7 +118,7 @@ def test_knees_and_elbows_bend_in_their_plane():
 
 def test_limbs_reach_for_their_targets():
     source = figure()
-    thing = make(source, per_limb=2, ik=True)
+    thing = make(source, per_limb=2, ik="TARGET")
     target, foot = thing.pose.bones["IK.limb.02.L"], thing.pose.bones["limb.02.02.L"]
     assert not target.bone.use_deform and "IK.limb.02.L" not in source.vertex_groups
     rest = shown(source)
@@ -143,6 +146,65 @@ def own_armature():
     bone.name, bone.rotation_mode, bone.rotation_euler = "cape", "XYZ", (0.4, 0, 0)
     bpy.context.view_layer.update()
     return thing
+
+
+def lines_of(thing):
+    return [o for o in bpy.data.objects if o.type == "CURVE" and o.parent == thing]
+
+
+def test_limbs_lie_along_lines_through_their_controls():
+    """At rest nothing moves; a moved end and a moved middle draw the limb along, and a body takes its limbs along."""
+    source = figure()
+    thing = make(source, per_limb=4, ik="SPLINE")
+    assert {f"IK.limb.02.0{k}.L" for k in range(1, 6)} <= set(thing.data.bones.keys())
+    assert not any("IK" in group.name for group in source.vertex_groups)
+    rest = shown(source)
+    np.testing.assert_allclose(rest, positions(source.data), atol=3e-4)
+    end, chain = (
+        thing.pose.bones["IK.limb.01.05.L"],
+        [thing.pose.bones[f"limb.01.0{k}.L"] for k in range(1, 5)],
+    )
+    start = chain[0].head.copy()
+    end.location = (0.15, 0.0, 0.1)
+    thing.pose.bones["IK.limb.01.03.L"].location = (0.0, 0.0, 0.2)
+    bpy.context.view_layer.update()
+    assert (chain[-1].tail - end.head).length < 0.01 and (chain[0].head - start).length < 1e-4
+    assert (end.head - end.bone.head_local).length > 0.15
+    middle = thing.pose.bones["IK.limb.01.03.L"]
+    assert (chain[1].tail - middle.head).length < 0.1
+    assert (middle.head - middle.bone.head_local).length > 0.15
+    moved = np.linalg.norm(shown(source) - rest, axis=1)
+    assert moved.max() > 0.12 and moved[rest[:, 0] < -0.15].max() < 1e-3
+    for name in ("IK.limb.01.05.L", "IK.limb.01.03.L"):
+        thing.pose.bones[name].location = (0, 0, 0)
+    root = thing.pose.bones["pelvis"]
+    root.rotation_mode, root.rotation_euler, root.location = "XYZ", (0.2, 0.3, 0.4), (0.3, 0.1, 0)
+    bpy.context.view_layer.update()
+    motion = np.array(root.matrix @ root.bone.matrix_local.inverted())
+    np.testing.assert_allclose(shown(source), rest @ motion[:3, :3].T + motion[:3, 3], atol=1e-3)
+
+
+def test_lines_of_limbs_are_made_anew_and_go():
+    """Pressed again, also in a pose and within an artist's armature, no line is left over."""
+    cast = own_armature()
+    source = figure()
+    rest = shown(source)
+    for _ in range(2):
+        assert make(source, per_limb=3, ik="SPLINE", armature="Cast") == cast
+        np.testing.assert_allclose(shown(source), rest, atol=3e-4)
+        assert len(lines_of(cast)) == 5
+    end = cast.pose.bones["IK.limb.02.04.L"]
+    end.location = (0.1, 0.0, 0.1)
+    bpy.context.view_layer.update()
+    posed = shown(source)
+    assert np.abs(posed - rest).max() > 0.05
+    make(source, per_limb=3, ik="SPLINE", armature="Cast")
+    np.testing.assert_allclose(shown(source), posed, atol=3e-4)
+    make(source, per_limb=3, ik="TARGET", armature="Cast")
+    assert not lines_of(cast) and not bpy.data.curves
+    make(source, per_limb=3, armature="Cast")
+    assert not any(len(bone.constraints) or bone.lock_ik_y for bone in cast.pose.bones)
+    assert not any(bone.name.startswith("IK") for bone in cast.data.bones)
 
 
 @pytest.mark.parametrize("bind", ["AXIS", "AUTOMATIC"])

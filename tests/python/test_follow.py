@@ -25,21 +25,25 @@ def tube(long=4.0, radius=0.3, around=ROUND, rings=LENGTH):
     return points, head, np.arange(BONES, dtype=np.int32) - 1, weight
 
 
-def follower(points, head, parent, weight):
+def follower(points, head, parent, weight, along=None):
     vertex, bone = np.nonzero(weight > 0)
-    return Follower(head, parent, points, vertex, bone, weight[vertex, bone])
+    return Follower(head, parent, points, vertex, bone, weight[vertex, bone], along)
 
 
-def pose_of(head, parent, turns, shift):
-    """Transforms (b, 3, 4) of bones that turn about their heads, one after the other."""
-    moves = []
+def pose_of(head, parent, turns, shift, sizes=None):
+    """Transforms (b, 3, 4) of bones that turn about their heads, one after the other.
+
+    Those along X have sizes (b, 2) along and across, which the next ones do not inherit.
+    """
+    whole, moves = [], []
     for bone, own in enumerate(turns):
-        local = np.eye(4)
-        local[:3, :3], local[:3, 3] = own, head[bone] - own @ head[bone]
-        if parent[bone] < 0:
-            local[:3, 3] += shift
-        moves.append(local if parent[bone] < 0 else moves[parent[bone]] @ local)
-    return np.array(moves)[:, :3]
+        above = parent[bone]
+        whole.append(own if above < 0 else whole[above] @ own)
+        at = head[bone] + shift if above < 0 else moves[above] @ (*head[bone], 1.0)
+        along, across = (1.0, 1.0) if sizes is None else sizes[bone]
+        linear = whole[bone] @ np.diag((along, across, across))
+        moves.append(np.column_stack((linear, at - linear @ head[bone])))
+    return np.array(moves)
 
 
 def skinned(points, weight, moves):
@@ -63,6 +67,49 @@ def test_a_known_pose_is_found(seed):
     pose = bones.pose(moved)
     np.testing.assert_allclose(pose.matrices, moves, atol=1e-6)
     assert bones.off(pose, moved).max() < 1e-7
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_bones_that_stretch_have_the_sizes_of_the_mesh(seed):
+    """Turns by up to 60 degrees; sizes along and across between a half and the double, each by itself."""
+    points, head, parent, weight = tube()
+    rng = np.random.default_rng(seed)
+    turns = [turn(rng.normal(size=3), rng.uniform(-1, 1) * np.radians(60)) for _ in head]
+    sizes = 2.0 ** rng.uniform(-1.0, 1.0, (BONES, 2))
+    moves = pose_of(head, parent, turns, rng.normal(size=3), sizes)
+    moved = skinned(points, weight, moves)
+    along = np.tile((1.0, 0.0, 0.0), (BONES, 1))
+    bones = follower(points, head, parent, weight, along)
+    pose = bones.pose(moved)
+    np.testing.assert_allclose(pose.matrices, moves, atol=1e-6)
+    assert bones.off(pose, moved).max() < 1e-7
+    rigid = follower(points, head, parent, weight)
+    assert rigid.off(rigid.pose(moved), moved).max() > 0.05
+
+
+def test_a_mesh_that_only_grows_is_followed_by_stretching():
+    points, head, parent, weight = tube()
+    along = np.tile((1.0, 0.0, 0.0), (BONES, 1))
+    pose = follower(points, head, parent, weight, along).pose(3.0 * points)
+    np.testing.assert_allclose(pose.stretch, np.tile(3.0 * np.eye(3), (BONES, 1, 1)), atol=1e-6)
+
+
+def test_bones_that_stretch_may_have_no_vertices():
+    """And a branch may shrink to nothing: sizes stay positive."""
+    points, head, parent, weight = tube()
+    along = np.tile((1.0, 0.0, 0.0), (BONES, 1))
+    for empty in ([1], [3], [0], [1, 2]):
+        left = weight.copy()
+        left[:, empty] = 0.0
+        pose = follower(points, head, parent, left, along).pose(1.5 * points)
+        assert np.isfinite(pose.matrices).all()
+    gone = points.copy()
+    gone[points[:, 0] > 2.0] = (2.0, 0.0, 0.0)
+    pose = follower(points, head, parent, weight, along).pose(gone)
+    assert (np.linalg.det(pose.linear) > 0.0).all()
+    at = (pose.linear * head[:, None]).sum(2) + pose.shift
+    before = (pose.linear[:-1] * head[1:, None]).sum(2) + pose.shift[:-1]
+    np.testing.assert_allclose(at[1:], before, atol=1e-9)
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])

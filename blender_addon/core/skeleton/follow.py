@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fit the pose of bones to the moved vertices of a mesh: the inverse of linear blend skinning.
 
-Roots turn and move, all other bones turn about their heads, and no bone changes its length. So joints stay connected
+Roots turn and move, all other bones turn about their heads, and no bone changes its length unless it may stretch. Bones
+that stretch get a size along them and one across, which those that hang on them do not inherit. Joints stay connected
 whatever the mesh does. Of all such poses it is the one whose skinned vertices are closest to the moved ones, by the sum
 of squares. Each frame is fitted by itself: each bone by the turn that fits its own vertices best (Kabsch), and then all
 joints together by damped Gauss-Newton steps (Levenberg and Marquardt).
@@ -34,27 +35,37 @@ _STILL = 1e-9  # radians: joints that turn less have arrived
 _DAMPING = 1e-9, 1e6  # least and largest share of the diagonal that is added to it
 _MOST_LOOKS = 60
 _ARRIVED = 1e-4  # a share of the size: vertices that move less between two looks have arrived
+_GROWTH = 0.5, 2.0  # the least and the largest change of a size in one step
+_SIZES = 1.0 / 64.0, 64.0  # the least and the largest size of a bone that stretches
 _NOWHERE = 1e-12  # a share of the mean diagonal for joints that no vertex tells anything about
 
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A pose takes places at rest, x, to `turn @ x + shift`.
+    """A pose takes places at rest, x, to `turn @ stretch @ x + shift`.
 
     Parameters
     ----------
     turn : (b, 3, 3) float64
         Rotations.
     shift : (b, 3) float64
+    stretch : (b, 3, 3) float64
+        Symmetric: a size along each bone at rest, and another one across.
     """
 
     turn: NDArray[np.float64]
     shift: NDArray[np.float64]
+    stretch: NDArray[np.float64]
+
+    @property
+    def linear(self) -> NDArray[np.float64]:
+        """Return the transforms without their shifts, (b, 3, 3)."""
+        return _products(self.turn, self.stretch)
 
     @property
     def matrices(self) -> NDArray[np.float64]:
         """Return the transforms, (b, 3, 4)."""
-        return np.concatenate((self.turn, self.shift[:, :, None]), axis=2)
+        return np.concatenate((self.linear, self.shift[:, :, None]), axis=2)
 
 
 class Follower:
@@ -72,6 +83,8 @@ class Follower:
         The vertex and the bone of each weight.
     weight : (w,) float64
         Positive; those of one vertex need not add up to 1. A vertex without a weight is not looked at.
+    along : (b, 3) float64, optional
+        The direction of each bone at rest, of length 1: bones stretch. Without it they keep their sizes.
     """
 
     def __init__(
@@ -82,7 +95,9 @@ class Follower:
         vertex: NDArray[np.int64],
         bone: NDArray[np.int64],
         weight: NDArray[np.float64],
+        along: NDArray[np.float64] | None = None,
     ) -> None:
+        self._along = along
         total = np.bincount(vertex, weights=weight, minlength=len(points))
         self._count, self._parent = len(parent), parent
         self._held = np.flatnonzero(total > 0.0)
@@ -120,13 +135,14 @@ class Follower:
                 damping = max(damping / 10.0, _DAMPING[0])
             else:
                 damping *= 10.0
-            if np.abs(step[0]).max() <= _STILL or damping > _DAMPING[1]:
+            if max(np.abs(step[0]).max(), np.abs(step[2]).max()) <= _STILL or damping > _DAMPING[1]:
                 break
         return self._in_space(pose)
 
     def at_rest(self) -> Pose:
         """Return the pose that moves nothing."""
-        return Pose(np.tile(np.eye(3), (self._count, 1, 1)), np.zeros((self._count, 3)))
+        same = np.tile(np.eye(3), (self._count, 1, 1))
+        return Pose(same, np.zeros((self._count, 3)), same)
 
     def pose_near(
         self, start: Pose, nearest: Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -163,7 +179,7 @@ class Follower:
     def _put(self, pose: Pose) -> NDArray[np.float64]:
         """Return where a pose puts the vertices, in the frame of the sums; 0 for those without a weight."""
         shift = (_shifted(pose, self._centre) - self._centre) / self._unit
-        here = Pose(pose.turn, shift)
+        here = Pose(pose.turn, shift, pose.stretch)
         placed = _times_rows(here.matrices[self._bone], self._at_rest)
         count = len(self._places)
         return np.column_stack([np.bincount(self._vertex, placed[:, k], count) for k in range(3)])
@@ -252,16 +268,21 @@ class Follower:
                 turn[bone] = turn[parent] if parent >= 0 else np.eye(3)
             if parent < 0:
                 shift[bone] = at[bone] - _times(turn[bone], middle[bone])
-        return self._jointed(turn, shift)
+        return self._jointed(turn, np.tile(np.eye(3), (self._count, 1, 1)), shift)
 
-    def _jointed(self, turn: NDArray[np.float64], root_shift: NDArray[np.float64]) -> Pose:
-        """Return a pose with these turns, in which the head of each bone follows its parent."""
-        shift = root_shift.copy()
+    def _jointed(
+        self,
+        turn: NDArray[np.float64],
+        stretch: NDArray[np.float64],
+        root_shift: NDArray[np.float64],
+    ) -> Pose:
+        """Return a pose with these turns and sizes, in which the head of each bone follows its parent."""
+        shift, linear = root_shift.copy(), _products(turn, stretch)
         for bone, parent in enumerate(self._parent.tolist()):
             if parent >= 0:
-                place = _times(turn[parent], self._head[bone]) + shift[parent]
-                shift[bone] = place - _times(turn[bone], self._head[bone])
-        return Pose(turn, shift)
+                place = _times(linear[parent], self._head[bone]) + shift[parent]
+                shift[bone] = place - _times(linear[bone], self._head[bone])
+        return Pose(turn, shift, stretch)
 
     def _error(self, pose: Pose, sums: NDArray[np.float64]) -> float:
         """Return the sum of squares, up to a number that does not depend on the pose."""
@@ -271,79 +292,124 @@ class Follower:
 
     def _step(
         self, pose: Pose, sums: NDArray[np.float64], damping: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return by how much each joint turns, (b, 3), and each root moves, (b, 3)."""
-        square, slope = self._twists(pose, sums)
-        for bone in range(self._count - 1, -1, -1):  # what hangs on a bone moves with it
-            parent = self._parent[bone]
-            if parent >= 0:
-                square[parent] += square[bone]
-                slope[parent] += slope[bone]
-        for bone in range(self._count - 1, -1, -1):
-            if self._parent[bone] >= 0:
-                square[:, self._parent[bone]] += square[:, bone]
-        joint = self._joints(pose)
-        square = _products(_products(joint.swapaxes(1, 2)[:, None], square), joint[None])
-        free = np.ones((self._count, 6), bool)
-        free[self._parent >= 0, 3:] = False
-        free = free.ravel()
-        matrix = square.swapaxes(1, 2).reshape(6 * self._count, -1)[free][:, free]
-        right = _products(joint.swapaxes(1, 2), slope[:, :, None]).ravel()[free]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return by how much each joint turns and each root moves, (b, 3), and each bone grows, (b, 2), in shares."""
+        motions, free = self._motions(pose)
+        matrix, right = self._normal_equations(motions, pose, sums)
         diagonal = np.diagonal(matrix)
         matrix[np.diag_indices(len(matrix))] += damping * diagonal + _NOWHERE * diagonal.mean()
-        step = np.zeros(6 * self._count)
+        step = np.zeros(free.shape)
         step[free] = _solved(matrix, right)
-        step = step.reshape(-1, 6)
-        return step[:, :3], step[:, 3:]
+        return step[:, :3], step[:, 3:6], step[:, 6:]
 
-    def _joints(self, pose: Pose) -> NDArray[np.float64]:
-        """Return the twist of each bone, a turn and a shift, for a turn about its head and a shift, (b, 6, 6)."""
-        head = _times_rows(pose.matrices, np.column_stack((self._head, np.ones(self._count))))
-        joint = np.tile(np.eye(6), (self._count, 1, 1))
-        joint[:, 3:, :3] = _cross(head)
-        return joint
+    def _motions(self, pose: Pose) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Return how fast posed places move, (p, b, 3, 4), with each thing that is free, and what is free, (b, 8).
 
-    def _twists(
-        self, pose: Pose, sums: NDArray[np.float64]
+        A place y on a bone moves by `motion[:, :3] @ y + motion[:, 3]`. Free are turns about the head and shifts, by
+        three axes each, and the sizes along and across. All that hangs on a bone turns and moves with it, and is
+        carried along by its growth.
+        """
+        count, axes = self._count, np.eye(3)
+        head = _times_rows(pose.matrices, np.column_stack((self._head, np.ones(count))))
+        below, via = self._below()
+        found = np.zeros((count, 8, count, 3, 4))
+        about = np.tile(_cross(axes), (count, 1, 1, 1))
+        found[:, :3, :, :, :3] = about[:, :, None] * below[:, None, :, None, None]
+        found[:, :3, :, :, 3] = (
+            -_times(about, head[:, None, None])[:, :, None] * below[:, None, :, None]
+        )
+        found[:, 3:6, :, :, 3] = axes[None, :, None] * below[:, None, :, None]
+        grown = self._growths(pose)
+        carried = np.where(below[..., None], head[via] - head[:, None], 0.0)
+        found[:, 6:, :, :, 3] = _times(grown[:, :, None], carried[:, None, :, None])
+        own = np.arange(count)
+        found[own, 6:, own, :, :3] = grown
+        found[own, 6:, own, :, 3] = -_times(grown, head[:, None, None])
+        free = np.ones((count, 8), bool)
+        free[self._parent >= 0, 3:6] = False
+        free[:, 6:] = self._along is not None
+        return found[free], free
+
+    def _below(self) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+        """Return which bones, (b, b), move with each, itself among them, and on which child of it they hang, or are."""
+        below, via = (
+            np.eye(self._count, dtype=bool),
+            np.tile(np.arange(self._count), (self._count, 1)),
+        )
+        np.fill_diagonal(via, np.arange(self._count))
+        for bone, parent in enumerate(self._parent.tolist()):
+            if parent >= 0:
+                below[:, bone] |= below[:, parent]
+                via[:, bone] = via[:, parent]
+                via[parent, bone] = bone
+        return below, via
+
+    def _growths(self, pose: Pose) -> NDArray[np.float64]:
+        """Return what a share of growth of each bone does to places round its head, along and across, (b, 2, 3, 3)."""
+        if self._along is None:
+            return np.zeros((self._count, 2, 3, 3))
+        way = _times_rows(pose.turn, self._along)
+        line = way[:, :, None] * way[:, None, :]
+        return np.stack((line, np.eye(3) - line), axis=1)
+
+    def _normal_equations(
+        self, motions: NDArray[np.float64], pose: Pose, sums: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the normal equations of the twists of single bones, (b, b, 6, 6) and (b, 6)."""
+        """Return the matrix, (p, p), and the right side, (p,), of a Gauss-Newton step."""
         moves = np.zeros((self._count, 4, 4))
         moves[:, :3], moves[:, 3, 3] = pose.matrices, 1.0
         pairs = _products(_products(moves[:, None], self._pairs), moves.swapaxes(1, 2)[None])
-        square = np.zeros((self._count, self._count, 6, 6))
-        both = pairs[:, :, :3, :3]
-        square[:, :, :3, :3] = -both.swapaxes(2, 3)
-        for k in range(3):
-            square[:, :, k, k] += both[:, :, 0, 0] + both[:, :, 1, 1] + both[:, :, 2, 2]
-            square[:, :, 3 + k, 3 + k] = pairs[:, :, 3, 3]
-        square[:, :, :3, 3:] = _cross(pairs[:, :, :3, 3])
-        square[:, :, 3:, :3] = -_cross(pairs[:, :, 3, :3])
         rest = _products(moves, sums.swapaxes(1, 2)) - pairs.sum(axis=1)[:, :, :3]
-        turn = [rest[:, i, j] - rest[:, j, i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        return square, np.column_stack((*turn, rest[:, 3]))
+        met = np.zeros_like(motions)
+        for bone in range(self._count):
+            for k in range(4):
+                met += motions[:, bone, None, :, k, None] * pairs[bone, :, k][None, :, None, :]
+        met, flat = (table.reshape(len(motions), -1) for table in (met, motions))
+        matrix, right = np.zeros((len(flat), len(flat))), np.zeros(len(flat))
+        offs = rest.swapaxes(1, 2).ravel()
+        for column in range(flat.shape[1]):
+            matrix += met[:, column, None] * flat[None, :, column]
+            right += flat[:, column] * offs[column]
+        return matrix, right
 
-    def _turned(self, pose: Pose, turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Pose:
-        """Return the pose after each joint has turned about its head, and each root has moved."""
+    def _turned(
+        self,
+        pose: Pose,
+        turn: NDArray[np.float64],
+        shift: NDArray[np.float64],
+        growth: NDArray[np.float64],
+    ) -> Pose:
+        """Return the pose after each joint has turned about its head, each root has moved, and bones have grown."""
         whole = turn.copy()
         for bone, parent in enumerate(self._parent.tolist()):
             if parent >= 0:
                 whole[bone] += whole[parent]
-        more = _turns(whole)
         roots = self._parent < 0
         head = _times_rows(pose.matrices, np.column_stack((self._head, np.ones(self._count))))
-        turned = _products(more, pose.turn)
-        there = head + shift - _products(turned, self._head[:, :, None])[:, :, 0]
-        return self._jointed(turned, np.where(roots[:, None], there, 0.0))
+        turned, stretch = _products(_turns(whole), pose.turn), self._grown(pose, growth)
+        there = head + shift - _times(_products(turned, stretch), self._head[:, None])
+        return self._jointed(turned, stretch, np.where(roots[:, None], there, 0.0))
+
+    def _grown(self, pose: Pose, growth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the stretch of a pose after bones have grown by shares of their sizes along and across, (b, 2)."""
+        if self._along is None:
+            return pose.stretch
+        line = self._along[:, :, None] * self._along[:, None, :]
+        along = (line * pose.stretch).sum(axis=(1, 2))
+        across = (np.trace(pose.stretch, axis1=1, axis2=2) - along) / 2.0
+        sizes = np.stack((along, across), axis=1) * np.clip(1.0 + growth, *_GROWTH)
+        a, b = np.clip(sizes, *_SIZES).T[:, :, None, None]
+        return np.asarray(b * np.eye(3) + (a - b) * line)
 
     def _in_space(self, pose: Pose) -> Pose:
         """Return the same pose for places in the unit of the mesh, which are not counted from its centre."""
-        back = Pose(pose.turn, self._unit * pose.shift)
-        return Pose(pose.turn, _shifted(back, -self._centre) + self._centre)
+        back = Pose(pose.turn, self._unit * pose.shift, pose.stretch)
+        return Pose(pose.turn, _shifted(back, -self._centre) + self._centre, pose.stretch)
 
 
 def _shifted(pose: Pose, by: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the shifts of a pose for places that are counted from another origin."""
-    return pose.shift + (pose.turn * by).sum(axis=2)
+    return pose.shift + (pose.linear * by).sum(axis=2)
 
 
 def _times(matrix: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[np.float64]:

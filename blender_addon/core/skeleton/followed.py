@@ -25,6 +25,8 @@ class Followed:
         The bones.
     thickness : (b,) float64
         The mean distance of the vertices of each bone from it, at rest.
+    stretch : bool
+        Whether bones change their lengths.
 
     Attributes
     ----------
@@ -33,8 +35,10 @@ class Followed:
         of the diagonal of the mesh.
     """
 
-    def __init__(self, names: list[str], thickness: NDArray[np.float64]) -> None:
-        self._names, self._thickness = names, thickness
+    def __init__(
+        self, names: list[str], thickness: NDArray[np.float64], stretch: bool = False
+    ) -> None:
+        self._names, self._thickness, self._stretch = names, thickness, stretch
         self.off: dict[int, float] = {}
         self._left: dict[int, list[tuple[float, int]]] = {}  # the share and the frame, of each bone
         self._others: list[int] = []  # frames with other vertices
@@ -97,7 +101,12 @@ class Followed:
         named = [f"'{self._names[bone]}'" for bone in most[:_NAMED]]
         more = len(self._left) - len(named)
         words = ", ".join(named) + (f" and {more} more" if more else "")
+        if self._stretch:
+            return [
+                f"The surface leaves {words} by more than their thickness in {len(frames)} frames, from {frames[0]} "
+                f"to {frames[-1]}: a branch is born or gone"
+            ]
         return [
             f"The surface leaves {words} by more than their thickness in {len(frames)} frames, from {frames[0]} to "
-            f"{frames[-1]}: a branch is born or gone, or lengths change, which bones keep"
+            f"{frames[-1]}: a branch is born or gone, or lengths change, which bones keep without Stretch"
         ]

@@ -118,9 +118,13 @@ def _with_partners(body: Body, chains: list[int]) -> list[dict[str, int]]:
     return found
 
 
-def target_of(name: str) -> str:
-    """Return the name for the target of a limb from that of its first bone: `IK.limb.02.L` from `limb.02.01.L`."""
+def target_of(name: str, number: int = 0) -> str:
+    """Return the name for a control of a limb from that of its first bone.
+
+    `limb.02.01.L` gives `IK.limb.02.L` for the target of the limb, and `IK.limb.02.01.L` for the control with a number.
+    """
     stem, _, side = name.rpartition(".")
-    if side not in ("L", "R"):
-        return f"IK.{stem}"
-    return f"IK.{stem.rpartition('.')[0]}.{side}"
+    sided = side in ("L", "R")
+    words = ["IK", stem.rpartition(".")[0] if sided else stem]
+    words += [f"{number:02d}"] if number else []
+    return ".".join(words + ([side] if sided else []))

@@ -33,6 +33,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "scan": True,
     "sampling": True,
     "what_comes_after": True,
+    "pose_a_body": True,
     "hollow": True,
     "unsolidify": True,
     "hide_and_seek": True,

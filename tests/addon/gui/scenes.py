@@ -21,7 +21,7 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, attribute, link, medial_objects, on_ellipsoid, select
+from scene import addon, analyses, attribute, link, medial_objects, on_ellipsoid, positions, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
@@ -867,6 +867,93 @@ def scene_what_comes_after():
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield patience(1.5)
     look("9-nodes")
+
+
+def scene_pose_a_body():
+    """Shoulder, hip, knee and tail turned by mouse, of a body with weights of the axis and one with Blender's."""
+    from test_rig import figure
+
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    viewport().spaces.active.show_region_ui = False
+    viewport().spaces.active.overlay.show_bones = True
+    for bind in ("AXIS", "AUTOMATIC"):
+        source = figure(bind.title(), tail=True)
+        with bpy.context.temp_override(window=window(), area=viewport(), object=source):
+            made = bpy.ops.object.medial_axis_armature(bind=bind, per_limb=2)
+        assert made == {"FINISHED"}
+        look_at_it_from((1.0, -1.6, 0.5))
+        frame_selected()
+        yield patience(1.5)
+        look(f"{bind.lower()}-1-at-rest")
+        thing = bpy.data.objects[f"{bind.title()} Armature"]
+        select(thing)
+        with in_viewport():
+            bpy.ops.object.mode_set(mode="POSE")
+        for bone, angle in (("limb.01.01.L", -50), ("limb.02.01.L", 50), ("limb.02.02.L", -50)):
+            yield from turned_by_mouse(thing, bone, angle)
+        assert_left_side_moved(source)
+        look(f"{bind.lower()}-2-limbs")
+        look_at_it_from((1.6, 1.2, 0.4))
+        yield patience(1.0)
+        yield from turned_by_mouse(thing, "tail.01", 40)
+        look(f"{bind.lower()}-3-tail")
+        with in_viewport():
+            bpy.ops.object.mode_set(mode="OBJECT")
+        for made in (source, thing):
+            made.hide_set(True)
+
+
+def look_at_it_from(towards):
+    from mathutils import Vector
+
+    view = viewport().spaces.active.region_3d
+    view.view_rotation = Vector(towards).to_track_quat("Z", "Y")
+    view.view_perspective = "ORTHO"
+
+
+def on_screen(place):
+    """A place of the world in pixels from the upper left."""
+    from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+    region = next(region for region in viewport().regions if region.type == "WINDOW")
+    x, y = location_3d_to_region_2d(region, viewport().spaces.active.region_3d, place)
+    return round(region.x + x), round(window().height - region.y - y)
+
+
+def turned_by_mouse(thing, name, angle):
+    """Click on a bone, press R, lead the mouse round its head, and click again."""
+    bone = thing.pose.bones[name]
+    middle = thing.matrix_world @ (bone.head + bone.tail) / 2
+    yield from click(*on_screen(middle))
+    found = bpy.context.view_layer.objects.active
+    assert found == thing and thing.data.bones.active.name == name, thing.data.bones.active
+    before = bone.matrix.to_quaternion()
+    x, y = on_screen(thing.matrix_world @ bone.head)
+    steps = np.radians(np.linspace(0.0, angle, 9))
+    way = [(round(x + 120 * np.cos(a)), round(y - 120 * np.sin(a))) for a in steps]
+    yield from point(*way[0])
+    xdotool("key", "r")
+    yield 0.5
+    for place in way[1:]:
+        xdotool("mousemove", *place)
+        yield 0.15
+    xdotool("click", 1)
+    yield patience(0.8)
+    turned = np.degrees(before.rotation_difference(bone.matrix.to_quaternion()).angle)
+    turned = min(turned, 360.0 - turned)  # a quaternion and its negative are one turn
+    assert 0.5 * abs(angle) < turned < 1.3 * abs(angle), (name, turned)
+
+
+def assert_left_side_moved(source):
+    """The arm and the leg at the left have moved, and those at the right have not."""
+    now = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    rest = positions(source.data)
+    moved = np.linalg.norm(positions(now) - rest, axis=1)
+    x, z = rest[:, 0], rest[:, 2]
+    assert moved[x > 0.5].max() > 0.2, "the arm"
+    assert moved[(x > 0.1) & (z < 0.4)].max() > 0.2, "the leg"
+    for away in (x < -0.4, (x < -0.12) & (z < 0.5)):
+        assert moved[away].max() < 0.03, "the other side"
 
 
 def scene_hollow():
