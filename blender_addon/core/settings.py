@@ -783,6 +783,11 @@ class MidSurfaceSettings(Options):
         soft_maximum=1000.0,
         unit="length",
     )
+    quads: bool = switch(
+        "Quads",
+        "With a size: quadrilaterals, in flat sheets with four corners a grid, and triangles where they do not fit",
+        default=False,
+    )
 
 
 MID_SURFACE_OPTIONS = options_of(MidSurfaceSettings)
