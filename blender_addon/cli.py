@@ -152,13 +152,15 @@ exit codes:
 _EXAMPLES_OF_MID_SURFACES = """\
 INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
-          .inp   shell elements S6 with their thickness, for CalculiX
+          .inp   shell elements S6, or S8R of quads, with their thickness, for CalculiX
           .obj   polygons, a group for each sheet
           .ply   triangles, with the thickness of each vertex and face
           .stl   triangles; a .csv beside it has the thickness of each
+          With --keep-thick a file beside it ends with _thick.stl and has the faces of parts that are not thin.
 
 examples:
   medial_axis midsurface part.stl part.inp --size 2
+  medial_axis midsurface part.stl part.inp --size 2 --quads
   medial_axis midsurface parts/*.stl sheets/ --format obj
 
 exit codes:
@@ -518,7 +520,8 @@ def _check_outputs(wanted: argparse.Namespace) -> None:
     items = [
         item for path in wanted.inputs if _is_file(path) for item in _items_of_file(path, wanted)
     ]
-    files = Files([*wanted.inputs, *(item.input for item in items)])
+    inputs = [*wanted.inputs, *(item.input for item in items)]
+    files = Files(inputs, getattr(wanted, "keep_thick", False))
     try:
         for item in items:
             files.claim(item.output)
@@ -598,7 +601,8 @@ def _raise(error: Exception) -> Any:
 
 def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
-    code, thin, unknown, files = DONE, False, False, Files(wanted.inputs)
+    code, thin, unknown = DONE, False, False
+    files = Files(wanted.inputs, getattr(wanted, "keep_thick", False))
     for item in _divided(items, wanted):
         try:
             files.claim(item.output)

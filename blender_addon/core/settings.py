@@ -788,6 +788,11 @@ class MidSurfaceSettings(Options):
         "With a size: quadrilaterals, in flat sheets with four corners a grid, and triangles where they do not fit",
         default=False,
     )
+    keep_thick: bool = switch(
+        "Keep Thick Parts",
+        "Keep the faces of parts that are not thin, as an object or a file of their own; off: they are left out",
+        default=False,
+    )
 
 
 MID_SURFACE_OPTIONS = options_of(MidSurfaceSettings)

@@ -192,6 +192,26 @@ def test_sheets_that_a_thick_part_joins_are_told():
     assert len(said) == 1 and "what joins them is not thin" in said[0]
 
 
+def test_thick_parts_are_kept_by_choice(tmp_path, capsys):
+    """Of a block with two fins the twelve triangles of the block are kept, and those round the fins, which cut it."""
+    body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
+    mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
+    assert sheets_of(mesh).thick is None
+    found = sheets_of(mesh, keep_thick=True)
+    assert np.abs(found.thick.vertices).max() < 0.401
+    a, b, c = found.thick.vertices[found.thick.triangles].transpose(1, 0, 2)
+    kept = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert kept == pytest.approx(6 * 0.4 * 0.4 - 2 * 0.4 * 0.02, rel=1e-9)
+    source = write_off(tmp_path / "part.off", mesh)
+    assert run(source, tmp_path / "part.obj", "--keep-thick") == cli.DONE
+    assert (tmp_path / "part_thick.stl").stat().st_size == 84 + 50 * len(found.thick.triangles)
+
+
+def test_a_thin_solid_has_no_thick_parts():
+    for name in ("profile_i", "bent_sheet"):
+        assert not len(sheets_of(mid_surfaces.ALL[name]().mesh, keep_thick=True).thick.triangles)
+
+
 def test_sheets_that_should_meet_and_do_not_are_told(monkeypatch):
     """The web of a T without the facets at half of its height, as if they had been taken for frayed ones."""
     known, chosen = mid_surfaces.profile_t(), middle.thin_sheets

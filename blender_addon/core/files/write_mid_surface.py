@@ -24,6 +24,8 @@ from .write_triangles import write_stl
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..solid.thick_faces import ThickFaces
+
 _DIGITS = 6  # thicknesses that agree in so many digits are one section
 _PER_LINE = 8
 _LEAST_SINE = 0.2  # at the corners of an element with four; others are two triangles
@@ -38,6 +40,7 @@ def export_mid_surface(
     ----------
     found : MidSurface
     path : path of the file; its folder must exist. A file of that name is replaced.
+        Faces that no sheet stands for, if they were kept, go to a file beside it whose name ends with `_thick.stl`.
     frame : (4, 4) float64, optional
         From the vertices to the world.
 
@@ -56,7 +59,19 @@ def export_mid_surface(
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
         write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))
+    if found.thick is not None and len(found.thick.triangles):
+        _write_thick(found.thick, thick_path(written), frame)
     return written
+
+
+def _write_thick(thick: ThickFaces, path: Path, frame: NDArray[np.float64] | None) -> None:
+    points = thick.vertices if frame is None else placed(thick.vertices, frame)
+    write_whole(path, lambda stream: write_stl(points, thick.triangles, stream))
+
+
+def thick_path(path: Path) -> Path:
+    """Return the file beside a middle surface for the faces that no sheet stands for."""
+    return path.with_name(f"{path.stem}_thick.stl")
 
 
 def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:

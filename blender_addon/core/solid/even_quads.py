@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from ..machine.progress import Progress
 
+    # Places, (k, 4) rows of these with -1 where a face is a triangle, and the sheets of the faces.
+    _Made = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int32]]
+
 _STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's
 _LEAST_SINE = 0.5  # at the corners of a grid
 _ROUNDED = 1e-6  # a border that is longer by this share of a size has no other edge for it
@@ -40,14 +43,18 @@ def even_quads(faces: SheetFaces, length: float, progress: Progress | None = Non
     """
     faces = _with_borders_divided(faces, length)
     alone = np.bincount(faces.part)[faces.part] == 1
-    grids = {face: _grid(faces.ring(face)) for face in np.flatnonzero(alone)}
-    grids = {face: grid for face, grid in grids.items() if grid is not None}
-    made = [(*grid, np.full(len(grid[1]), faces.part[face])) for face, grid in grids.items()]
+    found = {face: _grid(faces.ring(face)) for face in np.flatnonzero(alone)}
+    grids = {face: grid for face, grid in found.items() if grid is not None}
+    made: list[_Made] = [
+        (places, quads, np.full(len(quads), faces.part[face], np.int32))
+        for face, (places, quads) in grids.items()
+    ]
     rest = ~np.isin(faces.of, list(grids))
     if rest.any():
         triangles, part = faces.triangles[rest], faces.part[faces.of[rest]]
         points, triangles, part = even_triangles(faces.vertices, triangles, part, length, progress)
-        made.append((points, *paired(points, triangles, part)))
+        quads, part = paired(points, triangles, part)
+        made.append((points, quads, part))
     return _together(made)
 
 
@@ -102,20 +109,20 @@ def _grid(ring: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.in
     ring = np.concatenate((ring, ring[:1]))
     low, high = ring[: u + 1], ring[u + v : 2 * u + v + 1][::-1]
     left, right = ring[2 * u + v :][::-1], ring[u : u + v + 1]
-    s, t = (np.linspace(0.0, 1.0, n + 1)[:, None] for n in (u, v))
-    s, t = s[:, None], t[None]
-    places = (1 - t) * low[:, None] + t * high[:, None] + (1 - s) * left[None] + s * right[None]
-    places -= (1 - s) * ((1 - t) * low[0] + t * high[0]) + s * ((1 - t) * low[-1] + t * high[-1])
+    s: NDArray[np.float64] = np.linspace(0.0, 1.0, u + 1)[:, None, None]
+    t: NDArray[np.float64] = np.linspace(0.0, 1.0, v + 1)[None, :, None]
+    across = (1.0 - t) * low[:, None] + t * high[:, None]
+    along_sides = (1.0 - s) * left[None] + s * right[None]
+    ends = (1.0 - t) * low[[0, -1], None] + t * high[[0, -1], None]
+    places: NDArray[np.float64] = across + along_sides - (1.0 - s) * ends[:1] - s * ends[1:]
     places[:, 0], places[:, -1], places[0], places[-1] = low, high, left, right
     at = np.arange((u + 1) * (v + 1)).reshape(u + 1, v + 1)
     quads = np.stack((at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]), axis=2).reshape(-1, 4)
-    places = places.reshape(-1, 3)
-    return (places, quads) if least_sines(places[quads]).min() >= _LEAST_SINE else None
+    flat = places.reshape(-1, 3)
+    return (flat, quads) if least_sines(flat[quads]).min() >= _LEAST_SINE else None
 
 
-def _together(
-    made: list[tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]],
-) -> SheetFaces:
+def _together(made: list[_Made]) -> SheetFaces:
     """One list of faces, ordered by sheets; places on borders that sheets share are one vertex."""
     starts = np.cumsum([0] + [len(places) for places, _, _ in made])
     points, row = np.unique(

@@ -33,6 +33,7 @@ from .even_quads import even_quads
 from .even_triangles import even_triangles
 from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
+from .thick_faces import ThickFaces, thick_faces
 from .thick_joints import joined_by_thick_parts
 from .thin_sheets import thin_sheets
 
@@ -74,6 +75,8 @@ class MidSurface(OfChosenSamples):
     sheets : int
     share : float
         The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
+    thick : ThickFaces or None
+        Where it was asked for, the faces of the solid that no sheet stands for.
     shape : Shape
     chosen : ChosenSamples
     warnings : tuple of str
@@ -88,6 +91,7 @@ class MidSurface(OfChosenSamples):
     of_vertices: NDArray[np.float64]
     sheets: int
     share: float
+    thick: ThickFaces | None
     shape: Shape
     chosen: ChosenSamples
     warnings: tuple[str, ...]
@@ -145,7 +149,7 @@ def mid_surface(
         raise _nothing_thin(wanted)
     sheets = _welded(carried(thin, _walls(shape, settings)))
     made = _simplified(sheets, wanted, progress)
-    return _with_thickness(made, sheets, thin, shape, found, start)
+    return _with_thickness(made, sheets, thin, shape, found, wanted.keep_thick, start)
 
 
 def _nothing_thin(wanted: MidSurfaceSettings) -> InvalidInputError:
@@ -289,6 +293,7 @@ def _with_thickness(
     thin: ThinSheets,
     shape: Shape,
     found: Computation,
+    keep_thick: bool,
     start: float,
 ) -> MidSurface:
     triangles, of = made.triangles, made.of
@@ -313,6 +318,7 @@ def _with_thickness(
         of_vertices,
         thin.parts,
         share,
+        thick_faces(shape, made, lengths) if keep_thick else None,
         shape,
         found.chosen,
         (*found.warnings, *_left_out(share), *_torn(triangles, found, thin)),
