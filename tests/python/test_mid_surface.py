@@ -193,7 +193,7 @@ def test_sheets_that_a_thick_part_joins_are_told():
 
 
 def test_thick_parts_are_kept_by_choice(tmp_path, capsys):
-    """Of a block with two fins the twelve triangles of the block are kept, and those round the fins, which cut it."""
+    """Faces of a block stay, and those of the two fins on it do not."""
     body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
     mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
     assert sheets_of(mesh).thick is None
