@@ -98,28 +98,37 @@ def _grid(ring: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.in
     None where the ring has not four corners, or opposite sides have other numbers of edges.
     """
     along = np.roll(ring, -1, axis=0) - ring
-    along /= np.linalg.norm(along, axis=1)[:, None]
+    along /= np.maximum(np.linalg.norm(along, axis=1), np.finfo(float).tiny)[:, None]
     turns = np.flatnonzero(dot(np.roll(along, 1, axis=0), along) < _STRAIGHT)
     if len(turns) != 4:
         return None
     ring = np.roll(ring, -turns[0], axis=0)
-    u, v, back, down = np.diff(np.append(turns, turns[0] + len(ring)))
+    u, v, back, down = np.diff(np.append(turns, turns[0] + len(ring))).tolist()
     if u != back or v != down:
         return None
     ring = np.concatenate((ring, ring[:1]))
     low, high = ring[: u + 1], ring[u + v : 2 * u + v + 1][::-1]
-    left, right = ring[2 * u + v :][::-1], ring[u : u + v + 1]
-    s: NDArray[np.float64] = np.linspace(0.0, 1.0, u + 1)[:, None, None]
-    t: NDArray[np.float64] = np.linspace(0.0, 1.0, v + 1)[None, :, None]
-    across = (1.0 - t) * low[:, None] + t * high[:, None]
-    along_sides = (1.0 - s) * left[None] + s * right[None]
-    ends = (1.0 - t) * low[[0, -1], None] + t * high[[0, -1], None]
-    places: NDArray[np.float64] = across + along_sides - (1.0 - s) * ends[:1] - s * ends[1:]
-    places[:, 0], places[:, -1], places[0], places[-1] = low, high, left, right
-    at = np.arange((u + 1) * (v + 1)).reshape(u + 1, v + 1)
+    places = _filled(low, high, ring[2 * u + v :][::-1], ring[u : u + v + 1]).reshape(-1, 3)
+    at = np.arange(len(places)).reshape(u + 1, v + 1)
     quads = np.stack((at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]), axis=2).reshape(-1, 4)
-    flat = places.reshape(-1, 3)
-    return (flat, quads) if least_sines(flat[quads]).min() >= _LEAST_SINE else None
+    return (places, quads) if least_sines(places[quads]).min() >= _LEAST_SINE else None
+
+
+def _filled(
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    left: NDArray[np.float64],
+    right: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """(u + 1, v + 1, 3) places between two sides of u and two of v edges (Coons 1967)."""
+    s: NDArray[np.float64] = np.linspace(0.0, 1.0, len(low))[:, None, None]
+    t: NDArray[np.float64] = np.linspace(0.0, 1.0, len(left))[None, :, None]
+    across = (1.0 - t) * low[:, None] + t * high[:, None]
+    along = (1.0 - s) * left[None] + s * right[None]
+    ends = (1.0 - t) * low[[0, -1], None] + t * high[[0, -1], None]
+    places: NDArray[np.float64] = across + along - (1.0 - s) * ends[:1] - s * ends[1:]
+    places[:, 0], places[:, -1], places[0], places[-1] = low, high, left, right
+    return places
 
 
 def _together(made: list[_Made]) -> SheetFaces:
