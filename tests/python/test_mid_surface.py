@@ -14,9 +14,11 @@ from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.solid import even_quads, quad_pairs
 from medial_axis.core.solid import mid_surface as middle
+from medial_axis.core.solid.carried_sheets import CarriedSheets
 from medial_axis.core.solid.even_triangles import divided, even_triangles
 from medial_axis.core.solid.mid_surface import mid_surface
 from medial_axis.core.solid.quad_pairs import least_sines
+from medial_axis.core.solid.sheet_faces import SheetFaces
 from support import mid_surfaces, topology
 from support.meshes import write_off
 from support.thick_meshes import block
@@ -296,13 +298,34 @@ def test_a_grid_keeps_the_edges_round_it():
 
 
 def test_a_polygon_that_crosses_itself_is_no_face():
-    """A rim with a loop in it: its triangles overlap, so the sheet keeps those that it had."""
-    places = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
-    vertices = np.column_stack((places, np.zeros(8))).astype(float)
-    for corners, simple in (((0, 1, 2, 7), True), (range(8), False)):
-        row = np.array(corners, np.int32)
-        offsets, part = np.array((0, len(row)), np.int32), np.zeros(1, np.int32)
-        assert middle._are_simple(middle.SheetFaces(vertices, offsets, row, part)) == simple
+    """Three squares in a row, of which the rim of the last has a loop in it: its triangles overlap.
+
+    So it keeps those that it had, as does the one beside it. The first one, which is apart, is a polygon.
+    """
+    looped = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
+    beside = [(-4, 0), (0, 0), (0, 4), (-4, 4)]
+    apart = [(-9, 0), (-5, 0), (-5, 4), (-9, 4)]
+    places = np.array([*apart, *beside, *looped], float)
+    places = np.column_stack((places, np.zeros(len(places))))
+    offsets, part = np.array((0, 4, 8, 16), np.int32), np.arange(3, dtype=np.int32)
+    faces = SheetFaces(places, offsets, np.arange(16, dtype=np.int32), part)
+    own = np.array([*apart, *beside, (4, 0), (4, 4)], float)
+    triangles = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7), (5, 8, 9), (5, 9, 6)]
+    sheets = CarriedSheets(
+        np.column_stack((own, np.zeros(len(own)))),
+        np.array(triangles, np.int32),
+        np.repeat(part, 2),
+        np.ones((6, 3)),
+    )
+    found = middle._without_crossings(faces, sheets)
+    assert found.part.tolist() == [0, 1, 1, 2, 2] and np.diff(found.offsets).tolist() == [
+        4,
+        *[3] * 4,
+    ]
+    np.testing.assert_array_equal(found.ring(0), places[:4])
+    np.testing.assert_array_equal(found.ring(3), sheets.vertices[[5, 8, 9]])
+    simple = SheetFaces(places, offsets[:3], faces.corners[:8], part[:2])
+    assert middle._without_crossings(simple, sheets) is simple
 
 
 def test_a_sheet_that_touches_itself_is_divided():

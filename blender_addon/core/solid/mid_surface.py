@@ -201,9 +201,7 @@ def _simplified(
     if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
         wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
-    faces = cast("SheetFaces", found)
-    if not _are_simple(faces):
-        faces = _triangles_of(sheets)
+    faces = _without_crossings(cast("SheetFaces", found), sheets)
     if size <= 0.0:
         return faces
     if asked.quads:
@@ -215,18 +213,44 @@ def _simplified(
     return SheetFaces(vertices, offsets, triangles.ravel(), part)
 
 
-def _are_simple(faces: SheetFaces) -> bool:
-    """Whether no polygon crosses itself: else its triangles overlap, and have more area than it encloses."""
+def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
+    """The faces, but in each group of sheets in which a polygon crosses itself the triangles of the sheets."""
+    crossed = _crossed(faces, _groups(sheets))
+    if not crossed.any():
+        return faces
+    kept, own = ~crossed[faces.part], crossed[sheets.part]
+    sizes = np.diff(faces.offsets)
+    triangles = sheets.triangles[own].ravel() + len(faces.vertices)
+    corners = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
+    used, corners = np.unique(corners, return_inverse=True)
+    ends = np.cumsum(np.concatenate(([0], sizes[kept], np.full(own.sum(), 3))))
+    return SheetFaces(
+        np.concatenate((faces.vertices, sheets.vertices))[used],
+        ends.astype(np.int32),
+        corners.reshape(-1).astype(np.int32),
+        np.concatenate((faces.part[kept], sheets.part[own])),
+    )
+
+
+def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
+    """(parts,) the same number for sheets that share vertices."""
+    parts = int(sheets.part.max()) + 1
+    pairs = np.column_stack((np.repeat(sheets.part, 3), parts + sheets.triangles.ravel()))
+    return united(parts + len(sheets.vertices), pairs)[:parts]
+
+
+def _crossed(faces: SheetFaces, group: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(parts,) whether a polygon in the group of each sheet crosses itself.
+
+    Then its triangles overlap, and have more area than it encloses.
+    """
     normals, doubled = unit_normals(faces.vertices[faces.triangles])
     enclosed = np.zeros((len(faces.part), 3))
     np.add.at(enclosed, faces.of, normals * doubled[:, None])
-    whole = float(doubled.sum())
-    return whole - float(np.linalg.norm(enclosed, axis=1).sum()) <= _PLAIN * whole
-
-
-def _triangles_of(sheets: CarriedSheets) -> SheetFaces:
-    offsets = np.arange(0, sheets.triangles.size + 1, 3, dtype=np.int32)
-    return SheetFaces(sheets.vertices, offsets, sheets.triangles.ravel(), sheets.part)
+    of = group[faces.part]
+    whole = np.bincount(of[faces.of], doubled, len(group))
+    inner = np.bincount(of, np.linalg.norm(enclosed, axis=1), len(group))
+    return np.asarray((whole - inner > _PLAIN * whole)[group])
 
 
 def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
