@@ -221,9 +221,10 @@ def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
     kept, own = ~crossed[faces.part], crossed[sheets.part]
     sizes = np.diff(faces.offsets)
     triangles = sheets.triangles[own].ravel() + len(faces.vertices)
-    corners = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
-    used, corners = np.unique(corners, return_inverse=True)
-    ends = np.cumsum(np.concatenate(([0], sizes[kept], np.full(own.sum(), 3))))
+    rows = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
+    used, corners = np.unique(rows, return_inverse=True)
+    ends = np.zeros(kept.sum() + own.sum() + 1, np.int64)
+    ends[1:] = np.cumsum(np.append(sizes[kept], np.full(own.sum(), 3)))
     return SheetFaces(
         np.concatenate((faces.vertices, sheets.vertices))[used],
         ends.astype(np.int32),
