@@ -12,12 +12,18 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from .commands.items import UsageError, check_outputs, divided, inside_blender, items
+from .commands.items import (
+    UsageError,
+    check_outputs,
+    divided,
+    files_of,
+    inside_blender,
+    items,
+)
 from .commands.parse import parse
 from .commands.watch import interruptible, watch
 from .console import ClosedPipeError, Console, open_streams
 from .core.batch.batch import Item, begin, failure, finish
-from .core.batch.outputs import Files
 from .core.errors import Cancelled, DegenerateInputError, InvalidInputError, ReadError
 from .core.machine import native
 from .core.solid.measurement import UNKNOWN
@@ -62,7 +68,7 @@ def run() -> None:
 
 def _run(found: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
-    code, thin, unknown, files = DONE, False, False, Files(wanted.inputs)
+    code, thin, unknown, files = DONE, False, False, files_of(wanted, wanted.inputs)
     for item in divided(found, wanted):
         try:
             files.claim(item.output)

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.axis.colours import radius_range
 from .attributes import Attribute
 from .material import THICKNESS, thickness_material
-from .output_object import Product, place, remember
+from .output_object import Product, follow_like, place, remember, source_of
 from .step_weights import write_steps
 from .thickness_object import carrier_of
 from .write_mesh import new_mesh
@@ -31,9 +31,17 @@ _TABLE = (
     Attribute("ma_part", "part", "FACE", "INT", np.int32),
 )
 
+THICK = "ma_thick_faces"
+
+THICK_PARTS = Product(" Thick Parts", (THICK,))
 MID_SURFACE = Product(" Mid-Surface", (SHEETS,), material=thickness_material)
-is_mid_surface, mid_surface_of = MID_SURFACE.has, MID_SURFACE.of
-check_mid_surface_writable = MID_SURFACE.check_writable
+is_mid_surface, mid_surface_of, is_thick = MID_SURFACE.has, MID_SURFACE.of, THICK_PARTS.has
+
+
+def check_mid_surface_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when an object that was made of a source cannot be updated now."""
+    MID_SURFACE.check_writable(source)
+    THICK_PARTS.check_writable(source)
 
 
 def write_mid_surface(
@@ -63,7 +71,33 @@ def write_mid_surface(
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[SHEETS], thing[SHARE] = found.sheets, found.share
     _solidify(thing, found.of_vertices)
+    _write_thick(source, found, frame)
     return thing
+
+
+def _write_thick(source: bpy.types.Object, found: MidSurface, frame: NDArray[np.float64]) -> None:
+    """Make or update the object of the faces that no sheet stands for, or remove it where there are none."""
+    thick = found.thick
+    if thick is None or not len(thick.triangles):
+        old = THICK_PARTS.of(source)
+        if old is not None:
+            mesh = old.data
+            bpy.data.objects.remove(old)
+            if not mesh.users:
+                bpy.data.meshes.remove(mesh)
+        return
+    thing, _ = THICK_PARTS.write_mesh(source, partial(new_mesh, thick))
+    place(thing, frame)
+    remember(thing, source, found.points, found.duplicates, ())
+    thing[THICK] = len(thick.triangles)
+
+
+def place_thick_parts(sheets: bpy.types.Object) -> None:
+    """Let the thick parts beside a middle surface, if there are any, have its place and its parent."""
+    source = source_of(sheets)
+    thick = None if source is None else THICK_PARTS.of(source)
+    if thick is not None:
+        follow_like(thick, sheets)
 
 
 def _show_in_front(thing: bpy.types.Object, source: bpy.types.Object) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -35,12 +35,17 @@ def check_outputs(wanted: argparse.Namespace) -> None:
     known = [
         item for path in wanted.inputs if _is_file(path) for item in _items_of_file(path, wanted)
     ]
-    files = Files([*wanted.inputs, *(item.input for item in known)])
+    files = files_of(wanted, [*wanted.inputs, *(item.input for item in known)])
     try:
         for item in known:
             files.claim(item.output)
     except InvalidInputError as error:
         raise UsageError(str(error)) from error
+
+
+def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
+    """Return the files of a run, of which an output may have another one beside it."""
+    return Files(inputs, getattr(wanted, "keep_thick", False))
 
 
 def _is_file(path: str) -> bool:

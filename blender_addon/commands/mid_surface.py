@@ -15,13 +15,15 @@ from .words import add_files, command_parser
 _HELP = """\
 INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
-          .inp   shell elements S6 with their thickness, for CalculiX
+          .inp   shell elements S6, or S8R of quads, with their thickness, for CalculiX
           .obj   polygons, a group for each sheet
           .ply   triangles, with the thickness of each vertex and face
           .stl   triangles; a .csv beside it has the thickness of each
+          With --keep-thick a file beside it ends with _thick.stl and has the faces of parts that are not thin.
 
 examples:
   medial_axis midsurface part.stl part.inp --size 2
+  medial_axis midsurface part.stl part.inp --size 2 --quads
   medial_axis midsurface parts/*.stl sheets/ --format obj
 
 exit codes:

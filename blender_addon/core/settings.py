@@ -802,6 +802,16 @@ class MidSurfaceSettings(Options):
         soft_maximum=1000.0,
         unit="length",
     )
+    quads: bool = switch(
+        "Quads",
+        "With a size: quadrilaterals, in flat sheets with four corners a grid, and triangles where they do not fit",
+        default=False,
+    )
+    keep_thick: bool = switch(
+        "Keep Thick Parts",
+        "Keep the faces of parts that are not thin, as an object or a file of their own; off: they are left out",
+        default=False,
+    )
 
 
 MID_SURFACE_OPTIONS = options_of(MidSurfaceSettings)

@@ -5,7 +5,11 @@ from functools import partial
 
 import bpy
 
-from ..bridge.mid_surface_object import check_mid_surface_writable, write_mid_surface
+from ..bridge.mid_surface_object import (
+    check_mid_surface_writable,
+    place_thick_parts,
+    write_mid_surface,
+)
 from ..core.samples.density import share_text
 from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
@@ -38,6 +42,10 @@ class OBJECT_OT_medial_axis_unsolidify(WallOperator, MidSurfaceProperties, bpy.t
 
     def write(self, thing, found, frame):
         return write_mid_surface(thing, found, frame)
+
+    def settle(self, made):
+        for sheets in made:
+            place_thick_parts(sheets)
 
     def summary(self, found):
         sheets = "1 sheet" if found.sheets == 1 else f"{found.sheets:,} sheets"

@@ -8,7 +8,7 @@ import bpy
 from ..bridge.armature_object import is_armature
 from ..bridge.axis_object import is_result
 from ..bridge.balls_object import is_balls
-from ..bridge.mid_surface_object import is_mid_surface
+from ..bridge.mid_surface_object import is_mid_surface, is_thick
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.reduced_object import is_reduced
@@ -30,6 +30,7 @@ _MADE = {
     is_armature: "an armature",
     is_balls: "balls",
     is_mid_surface: "a middle surface",
+    is_thick: "thick parts",
 }
 
 

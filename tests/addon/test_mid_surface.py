@@ -87,6 +87,38 @@ def test_again_updates_the_same_object():
     assert 0.2 < max(lengths) <= 0.7001
 
 
+def test_quads_are_a_grid():
+    plate()
+    made = unsolidify(size=0.5, quads=True)
+    corners = [len(face.vertices) for face in made.data.polygons]
+    assert corners == [4] * 16 and len(made.data.vertices) == 25
+
+
+def test_thick_parts_are_an_object_of_their_own_by_choice():
+    """A bar with a fin on it, as two boxes of one mesh: the bar is kept, and goes when it is not asked for."""
+    mesh = bpy.data.meshes.new("Bar")
+    bm = bmesh.new()
+    outline = [(-1, -1), (1, -1), (1, 1), (T / 2, 1), (T / 2, 3), (-T / 2, 3), (-T / 2, 1), (-1, 1)]
+    face = bm.faces.new([bm.verts.new((x, 0.0, z)) for x, z in outline])
+    moved = bmesh.ops.extrude_face_region(bm, geom=[face])["geom"]
+    verts = [each for each in moved if isinstance(each, bmesh.types.BMVert)]
+    bmesh.ops.translate(bm, verts=verts, vec=(0.0, 3.0, 0.0))
+    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    bm.to_mesh(mesh)
+    bm.free()
+    bar = bpy.data.objects.new("Bar", mesh)
+    bpy.context.collection.objects.link(bar)
+    select(bar)
+    unsolidify(keep_thick=True)
+    kept = bpy.data.objects["Bar Thick Parts"]
+    assert kept.parent == bar and max(each.co.z for each in kept.data.vertices) < 1.001
+    area = sum(face.area for face in kept.data.polygons)
+    assert 0.9 * (3 * 2 * 3 + 3 * (2 - T) + 2 * 4) < area < 1.01 * (3 * 2 * 3 + 3 * (2 - T) + 2 * 4)
+    select(kept)  # it stands for what it was made of
+    unsolidify()
+    assert "Bar Thick Parts" not in bpy.data.objects and "Bar Mid-Surface" in bpy.data.objects
+
+
 def test_a_block_has_no_sheets():
     bpy.ops.mesh.primitive_cube_add(size=2)
     refuse("found none", operator="medial_axis_unsolidify", samples=4000)

@@ -43,6 +43,7 @@ DATA = {
     "{} Medial Axes",
     " Medial Axis",
     " Small Mesh",
+    " Thick Parts",
     "Medial Axis Wires",
     "Medial Axis Capsules",
     "Medial Axis Drain",

@@ -248,6 +248,40 @@ TEST(FocalLine, IsCoveredOnceAndFacetsStayBetweenTwoKnots) {
   EXPECT_EQ(place(4), (Vec3{3, 0.1, 0}));
 }
 
+// A rim goes once round a ring of knots, two vertices between each two of them; `gap` are segments
+// without vertices at its end, over which an edge of the rim leads.
+void expect_that_a_ring_stays(int32_t gap) {
+  const int32_t count = 12;
+  std::vector<Vec3> knots;
+  for (int32_t k = 0; k < count; ++k) {
+    knots.push_back({std::cos(std::numbers::pi * k / 6), std::sin(std::numbers::pi * k / 6), 0});
+  }
+  std::vector<OnLine> at;
+  for (int32_t k = 0; k < count - gap; ++k) {
+    const int32_t next = (k + 1) % count;
+    for (const double share : {0.3, 0.7}) {
+      at.push_back(k < next ? OnLine{{k, next}, share} : OnLine{{next, k}, 1 - share});
+    }
+  }
+  std::vector<int32_t> web;
+  std::vector<Edge> rims;
+  const auto vertices = static_cast<int32_t>(at.size());
+  for (int32_t v = 0; v < vertices; ++v) {
+    web.push_back(v);
+    rims.push_back({v, (v + 1) % vertices});
+  }
+  const std::vector<OnLine> before = at;
+  cover_once(knots, rims, web, at);
+  for (const int32_t v : web) {
+    EXPECT_EQ(at[v].knots, before[v].knots) << gap;
+    EXPECT_NEAR(at[v].share, before[v].share, 1e-12) << gap;
+  }
+}
+
+TEST(FocalLine, OfARingIsNotDrawnTogether) {
+  for (const int32_t gap : {0, 1, 2}) expect_that_a_ring_stays(gap);
+}
+
 TEST(FlatPolygon, TellsFoldsFromDents) {
   const std::vector<FlatPoint> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   EXPECT_FALSE(is_turned_over(square) || turns_back(square) || crosses_itself(square));

@@ -18,6 +18,7 @@ from support import (
     crossings,
     distance,
     meshes,
+    mid_surfaces,
     topology,
 )
 from support.crisp_measures import Output
@@ -515,3 +516,15 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
     sides = output.vertices[output.face_vertices[output.following()]]
     sides = np.linalg.norm(sides - output.vertices[output.face_vertices], axis=1)
     assert sides.max() < curvature and output.rings().folded().sum() == 0
+
+
+@pytest.mark.parametrize("sides, t", ((12, 0.005), (6, 0.002)))
+def test_the_rim_round_a_thin_plate_stays_where_it_is(crisp, medial, sides, t):
+    """One closed line ends the sheet, and its vertices were drawn together in one place: facets were 0.9 wide."""
+    import medial_axis
+
+    made = medial_axis.compute(*mid_surfaces.round_plate(sides, t).mesh, samples=2_500)
+    output = crisp_measures.output_of(made, np.eye(3))
+    ends = output.vertices[output.face_vertices[output.following()]]
+    assert np.linalg.norm(ends - output.vertices[output.face_vertices], axis=1).max() < 0.1
+    assert np.ptp(output.vertices[:, :2], axis=0).min() > 0.8

@@ -12,9 +12,13 @@ from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import MidSurfaceSettings, Settings
+from medial_axis.core.solid import even_quads, quad_pairs
 from medial_axis.core.solid import mid_surface as middle
+from medial_axis.core.solid.carried_sheets import CarriedSheets
 from medial_axis.core.solid.even_triangles import divided, even_triangles
 from medial_axis.core.solid.mid_surface import mid_surface
+from medial_axis.core.solid.quad_pairs import least_sines
+from medial_axis.core.solid.sheet_faces import SheetFaces
 from support import mid_surfaces, topology
 from support.meshes import write_off
 from support.thick_meshes import block
@@ -140,6 +144,16 @@ def test_a_rim_round_a_plate_does_not_cross_itself():
     assert areas(found).sum() == pytest.approx(exact, rel=0.002)
 
 
+@pytest.mark.parametrize("sides, t", ((12, 0.005), (8, 0.002), (6, 0.002), (3, 0.002)))
+def test_plates_thinner_than_samples_are_apart_reach_their_walls(sides, t):
+    """The rim of their axis is one closed line, which was drawn together in a point."""
+    found = sheets_of(mid_surfaces.round_plate(sides, t).mesh, Settings(samples=2500))
+    assert found.sheets == topology.components(found.triangles) == 1
+    assert topology.euler(found.triangles) == 1 and len(found.part) < 30
+    exact = 0.125 * sides * np.sin(2 * np.pi / sides)
+    assert areas(found).sum() == pytest.approx(exact, rel=0.005)
+
+
 @pytest.mark.slow
 def test_a_shell_with_two_holes_has_its_area():
     """A zone of a sphere: what lies between 25 and 155 degrees of the pole."""
@@ -170,13 +184,51 @@ def test_a_block_is_no_wall():
         sheets_of(mesh)
 
 
-def test_sheets_that_do_not_meet_are_told():
+def test_sheets_that_a_thick_part_joins_are_told():
     """Two fins on opposite sides of a block, which is no wall: there are two pieces of one solid."""
     body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
     mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
     found = sheets_of(mesh)
     assert found.sheets == topology.components(found.triangles) == 2
-    assert any("2 pieces and the solid 1" in text for text in found.warnings)
+    said = [text for text in found.warnings if "2 pieces and the solid 1" in text]
+    assert len(said) == 1 and "what joins them is not thin" in said[0]
+
+
+def test_thick_parts_are_kept_by_choice(tmp_path, capsys):
+    """Faces of a block stay, and those of the two fins on it do not."""
+    body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
+    mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
+    assert sheets_of(mesh).thick is None
+    found = sheets_of(mesh, keep_thick=True)
+    assert np.abs(found.thick.vertices).max() < 0.401
+    a, b, c = found.thick.vertices[found.thick.triangles].transpose(1, 0, 2)
+    kept = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert kept == pytest.approx(6 * 0.4 * 0.4 - 2 * 0.4 * 0.02, rel=1e-9)
+    source = write_off(tmp_path / "part.off", mesh)
+    assert run(source, tmp_path / "part.obj", "--keep-thick") == cli.DONE
+    assert (tmp_path / "part_thick.stl").stat().st_size == 84 + 50 * len(found.thick.triangles)
+
+
+def test_a_thin_solid_has_no_thick_parts():
+    for name in ("profile_i", "bent_sheet"):
+        assert not len(sheets_of(mid_surfaces.ALL[name]().mesh, keep_thick=True).thick.triangles)
+
+
+def test_sheets_that_should_meet_and_do_not_are_told(monkeypatch):
+    """The web of a T without the facets at half of its height, as if they had been taken for frayed ones."""
+    known, chosen = mid_surfaces.profile_t(), middle.thin_sheets
+
+    def without_some(axis, *others):
+        thin = chosen(axis, *others)
+        heights = thin.vertices[thin.triangles][:, :, 2]
+        some = thin.facet[(heights.min(axis=1) < 0.25) & (heights.max(axis=1) > 0.15)]
+        kept = ~np.isin(thin.facet, some)
+        of_triangles = ("triangles", "part", "facet", "facing", "sliver", "normals", "slopes")
+        return replace(thin, **{name: getattr(thin, name)[kept] for name in of_triangles})
+
+    monkeypatch.setattr(middle, "thin_sheets", without_some)
+    said = sheets_of(known.mesh).warnings
+    assert any("2 pieces and the solid 1: sheets that should meet do not" in text for text in said)
 
 
 @pytest.mark.parametrize("name", ["profile_t", "bent_sheet"])
@@ -197,14 +249,83 @@ def test_triangles_of_a_size_are_even(name):
     assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets == 3)
 
 
+@pytest.mark.parametrize("name", ["profile_t", "ribbed_plate", "bent_sheet"])
+def test_quads_of_a_size_are_even(name):
+    """A grid in each rectangle; elsewhere nine of ten faces at least are pairs of triangles."""
+    known = mid_surfaces.ALL[name]()
+    found = sheets_of(known.mesh, size=0.05, quads=True)
+    sizes = np.diff(found.face_offsets)
+    assert set(sizes) <= {3, 4} and (sizes == 4).mean() > (0.9 if name == "bent_sheet" else 0.95)
+    four = found.face_vertices[found.face_offsets[:-1][sizes == 4, None] + np.arange(4)]
+    sines = least_sines(found.vertices[four])
+    assert sines.min() > 0.49 and (name != "profile_t" or sines.min() > 0.999)
+    sides = np.linalg.norm(found.vertices[four] - found.vertices[np.roll(four, 1, axis=1)], axis=2)
+    assert sides.max() < 0.05 * 1.75 and np.median(sides) == pytest.approx(0.05, rel=0.15)
+    whole = sheets_of(known.mesh)
+    assert topology.euler(found.triangles) == topology.euler(whole.triangles)
+    assert topology.components(found.triangles) == 1
+    assert areas(found).sum() == pytest.approx(areas(whole).sum(), rel=2e-3)
+    assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets > 1)
+    turns = np.cross(
+        found.vertices[four[:, 1]] - found.vertices[four[:, 0]],
+        found.vertices[four[:, 2]] - found.vertices[four[:, 0]],
+    )
+    for sheet in range(found.sheets if name != "bent_sheet" else 0):
+        mine = turns[found.part[sizes == 4] == sheet]
+        assert (mine @ mine.sum(axis=0)).min() > 0.0, "faces of a sheet turn the same way"
+
+
+def test_single_triangles_are_exchanged_for_pairs():
+    """Six triangles in a row: the best pair, in the middle of it, leaves two single ones that no pair joins."""
+    pairs = np.column_stack((np.arange(5), np.arange(1, 6)))
+    for best in range(5):
+        value = np.where(np.arange(5) == best, 1.0, 0.6)
+        partner = quad_pairs._matched(6, pairs, value)
+        assert (partner >= 0).all() and (partner[partner] == np.arange(6)).all()
+    partner = quad_pairs._matched(5, pairs[:4], np.full(4, 0.6))
+    assert (partner < 0).sum() == 1
+
+
+def test_a_grid_keeps_the_edges_round_it():
+    """A rectangle of 3 by 2 with an uneven side; another number of edges on the side opposite makes no grid."""
+    ring = [(0, 0), (1, 0), (2.5, 0), (3, 0), (3, 1), (3, 2), (2, 2), (1, 2), (0, 2), (0, 1)]
+    ring = np.column_stack((ring, np.zeros(10))).astype(float)
+    places, quads = even_quads._grid(np.roll(ring, 3, axis=0))
+    assert quads.shape == (6, 4) and least_sines(places[quads]).min() > 0.8
+    found = {tuple(place) for place in places.tolist()}
+    assert found >= {tuple(place) for place in ring.tolist()}
+    assert even_quads._grid(np.delete(ring, 1, axis=0)) is None
+
+
 def test_a_polygon_that_crosses_itself_is_no_face():
-    """A rim with a loop in it: its triangles overlap, so the sheet keeps those that it had."""
-    places = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
-    vertices = np.column_stack((places, np.zeros(8))).astype(float)
-    for corners, simple in (((0, 1, 2, 7), True), (range(8), False)):
-        row = np.array(corners, np.int32)
-        offsets, part = np.array((0, len(row)), np.int32), np.zeros(1, np.int32)
-        assert middle._are_simple(middle._Faces(vertices, offsets, row, part)) == simple
+    """Three squares in a row, of which the rim of the last has a loop in it: its triangles overlap.
+
+    So it keeps those that it had, as does the one beside it. The first one, which is apart, is a polygon.
+    """
+    looped = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
+    beside = [(-4, 0), (0, 0), (0, 4), (-4, 4)]
+    apart = [(-9, 0), (-5, 0), (-5, 4), (-9, 4)]
+    places = np.array([*apart, *beside, *looped], float)
+    places = np.column_stack((places, np.zeros(len(places))))
+    offsets, part = np.array((0, 4, 8, 16), np.int32), np.arange(3, dtype=np.int32)
+    faces = SheetFaces(places, offsets, np.arange(16, dtype=np.int32), part)
+    own = np.array([*apart, *beside, (4, 0), (4, 4)], float)
+    triangles = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7), (5, 8, 9), (5, 9, 6)]
+    sheets = CarriedSheets(
+        np.column_stack((own, np.zeros(len(own)))),
+        np.array(triangles, np.int32),
+        np.repeat(part, 2),
+        np.ones((6, 3)),
+    )
+    found = middle._without_crossings(faces, sheets)
+    assert found.part.tolist() == [0, 1, 1, 2, 2] and np.diff(found.offsets).tolist() == [
+        4,
+        *[3] * 4,
+    ]
+    np.testing.assert_array_equal(found.ring(0), places[:4])
+    np.testing.assert_array_equal(found.ring(3), sheets.vertices[[5, 8, 9]])
+    simple = SheetFaces(places, offsets[:3], faces.corners[:8], part[:2])
+    assert middle._without_crossings(simple, sheets) is simple
 
 
 def test_a_sheet_that_touches_itself_is_divided():
@@ -261,10 +382,12 @@ def test_files_and_figures(tmp_path, capsys):
 
 
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
-def test_calculix_bends_a_plate_as_the_textbook_says(tmp_path):
+@pytest.mark.parametrize("words, kind", (((), "S6"), (("--quads",), "S8R")))
+def test_calculix_bends_a_plate_as_the_textbook_says(tmp_path, words, kind):
     """A cantilever beam: the end sinks by F l^3 / (3 E I); without a Poisson's ratio a plate is a beam."""
-    assert run(cantilever(tmp_path), tmp_path / "plate.inp", "--size", "12") == cli.DONE
+    assert run(cantilever(tmp_path), tmp_path / "plate.inp", "--size", "12", *words) == cli.DONE
     text = (tmp_path / "plate.inp").read_text().replace("210000., 0.3", "210000., 0.0")
+    assert f"TYPE={kind}," in text and text.count("TYPE=") == 1
     rows = text[text.index("*NODE, NSET=NALL\n") : text.index("*ELEMENT")].splitlines()[1:]
     nodes = np.array([[float(word) for word in row.split(",")] for row in rows])
     fixed = nodes[nodes[:, 1] < -49.999, 0].astype(int)

@@ -47,3 +47,11 @@ def test_the_table_beside_triangles_replaces_nothing(tmp_path):
     files.claim(tmp_path / "part.stl")
     with pytest.raises(InvalidInputError, match="found '.*part.csv' again"):
         files.claim(table)
+
+
+def test_the_thick_parts_beside_a_middle_surface_replace_nothing(tmp_path):
+    thick = tmp_path / "part_thick.stl"
+    thick.write_text("an input")
+    with pytest.raises(InvalidInputError, match="replaces no input"):
+        Files([str(thick)], keeps_thick=True).claim(tmp_path / "part.inp")
+    Files([str(thick)]).claim(tmp_path / "part.inp")

@@ -11,13 +11,15 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ..errors import InvalidInputError
+from ..files.write_mid_surface import thick_path
 from .batch import report_path
 
 
 class Files:
-    """Records the files that a run reads and writes."""
+    """Records the files that a run reads and writes; `keeps_thick` is of `MidSurfaceSettings`."""
 
-    def __init__(self, inputs: Iterable[str] = ()) -> None:
+    def __init__(self, inputs: Iterable[str] = (), keeps_thick: bool = False) -> None:
+        self._keeps_thick = keeps_thick
         self._read: dict[object, Path] = {
             key: path for path in map(Path, inputs) for key in _identities(path)
         }
@@ -30,7 +32,7 @@ class Files:
         ------
         InvalidInputError
         """
-        for path in _written_with(output):
+        for path in self._written_with(output):
             if (found := _same_file(path, self._read)) is not None:
                 raise InvalidInputError(
                     f"Expected an output that replaces no input, found '{path}', which is the input "
@@ -45,20 +47,20 @@ class Files:
         InvalidInputError
         """
         self.check_not_read(output)
-        for path in _written_with(output):
+        for path in self._written_with(output):
             if _same_file(path, self._written) is not None:
                 raise InvalidInputError(
                     f"Expected another output for each input, found '{output}' again; put {{file}} "
                     "or {name} in OUTPUT"
                 )
-        for path in _written_with(output):
+        for path in self._written_with(output):
             self._written |= dict.fromkeys(_identities(path), path)
 
-
-def _written_with(output: Path) -> tuple[Path, ...]:
-    """Return an output, the report next to it, and the table of thickness next to triangles."""
-    tables = (output.with_suffix(".csv"),) if output.suffix.lower() == ".stl" else ()
-    return output, report_path(output), *tables
+    def _written_with(self, output: Path) -> tuple[Path, ...]:
+        """Return an output, the report next to it, and what is written beside it in other files."""
+        tables = (output.with_suffix(".csv"),) if output.suffix.lower() == ".stl" else ()
+        thick = (thick_path(output),) if self._keeps_thick else ()
+        return output, report_path(output), *tables, *thick
 
 
 def _same_file(path: Path, recorded: dict[object, Path]) -> Path | None:

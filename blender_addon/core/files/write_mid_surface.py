@@ -16,6 +16,7 @@ import numpy as np
 
 from ..small_matrices import placed
 from ..solid.mid_surface import MidSurface
+from ..solid.quad_pairs import least_sines
 from .extensions import extension_of
 from .whole_file import write_whole
 from .write_triangles import write_stl
@@ -23,8 +24,11 @@ from .write_triangles import write_stl
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..solid.thick_faces import ThickFaces
+
 _DIGITS = 6  # thicknesses that agree in so many digits are one section
 _PER_LINE = 8
+_LEAST_SINE = 0.2  # at the corners of an element with four; others are two triangles
 
 
 def export_mid_surface(
@@ -36,6 +40,7 @@ def export_mid_surface(
     ----------
     found : MidSurface
     path : path of the file; its folder must exist. A file of that name is replaced.
+        Faces that no sheet stands for, if they were kept, go to a file beside it whose name ends with `_thick.stl`.
     frame : (4, 4) float64, optional
         From the vertices to the world.
 
@@ -54,21 +59,43 @@ def export_mid_surface(
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
         write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))
+    if found.thick is not None and len(found.thick.triangles):
+        _write_thick(found.thick, thick_path(written), frame)
     return written
 
 
+def _write_thick(thick: ThickFaces, path: Path, frame: NDArray[np.float64] | None) -> None:
+    points = thick.vertices if frame is None else placed(thick.vertices, frame)
+    write_whole(path, lambda stream: write_stl(points, thick.triangles, stream))
+
+
+def thick_path(path: Path) -> Path:
+    """Return the file beside a middle surface for the faces that no sheet stands for."""
+    return path.with_name(f"{path.stem}_thick.stl")
+
+
 def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
-    """Shell elements of six nodes, S6, in a set for each sheet and a section for each thickness."""
-    triangles, of = found.triangles, found.face_of_triangles
-    nodes, elements = _with_middles(points, triangles)
+    """Shell elements with a set for each sheet and a section for each thickness.
+
+    Faces with four corners have eight nodes, S8R, and the triangles of all others six, S6.
+    """
+    quads, of_quads, triangles, of_triangles = _elements(found)
+    of = np.concatenate((of_quads, of_triangles))
+    nodes, middles = _with_middles(points, (quads, triangles))
     lines = [
         "** A middle surface: sheets of shell elements with their thickness.",
-        "** Replace the material, and add boundary conditions and a step. Abaqus calls S6 STRI65.",
+        "** Replace the material, and add boundary conditions and a step.",
+        "** Abaqus calls S6 STRI65.",
         "*NODE, NSET=NALL",
         *(f"{i + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(nodes.tolist())),
-        "*ELEMENT, TYPE=S6, ELSET=EALL",
-        *(f"{i + 1}, " + ", ".join(map(str, row)) for i, row in enumerate((elements + 1).tolist())),
     ]
+    first = 1
+    for name, corners, between in zip(("S8R", "S6"), (quads, triangles), middles, strict=True):
+        if len(corners):
+            lines.append(f"*ELEMENT, TYPE={name}, ELSET=EALL")
+        for row in (np.hstack((corners, between)) + 1).tolist():
+            lines.append(f"{first}, " + ", ".join(map(str, row)))
+            first += 1
     for sheet in range(found.sheets):
         lines += _set_of(f"SHEET{sheet + 1}", np.flatnonzero(found.part[of] == sheet))
     lines += ["*MATERIAL, NAME=MATERIAL", "*ELASTIC", "210000., 0.3"]
@@ -79,6 +106,18 @@ def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
     stream.write(("\n".join(lines) + "\n").encode("ascii"))
 
 
+def _elements(
+    found: MidSurface,
+) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int32], NDArray[np.int64]]:
+    """(q, 4) faces that are good quadrilaterals and (q,) their rows, (t, 3) triangles of all others and (t,) theirs."""
+    four = np.flatnonzero(np.diff(found.face_offsets) == 4)
+    quads = found.face_vertices[found.face_offsets[four, None] + np.arange(4)]
+    good = least_sines(found.vertices[quads]) >= _LEAST_SINE
+    triangles, of = found.triangles, found.face_of_triangles
+    others = ~np.isin(of, four[good])
+    return quads[good], four[good], triangles[others], of[others]
+
+
 def _set_of(name: str, rows: NDArray[np.int64]) -> list[str]:
     numbers = [str(row + 1) for row in rows.tolist()]
     starts = range(0, len(numbers), _PER_LINE)
@@ -86,13 +125,15 @@ def _set_of(name: str, rows: NDArray[np.int64]) -> list[str]:
 
 
 def _with_middles(
-    points: NDArray[np.float64], triangles: NDArray[np.int32]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The points and the middles of edges, and (t, 6) rows: three corners, then the middles after each of them."""
-    ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
-    edges, edge = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
-    middles = len(points) + edge.reshape(triangles.shape)
-    return np.concatenate((points, points[edges].mean(axis=1))), np.hstack((triangles, middles))
+    points: NDArray[np.float64], faces: tuple[NDArray[np.int32], ...]
+) -> tuple[NDArray[np.float64], list[NDArray[np.int64]]]:
+    """The points and the middles of edges, and the rows of the middles after each corner of faces of some kinds."""
+    ends = [np.stack((each, np.roll(each, -1, axis=1)), axis=2).reshape(-1, 2) for each in faces]
+    edges, edge = np.unique(np.sort(np.concatenate(ends), axis=1), axis=0, return_inverse=True)
+    rows = len(points) + edge.reshape(-1)
+    at = np.cumsum([each.size for each in faces])[:-1]
+    split = [part.reshape(each.shape) for part, each in zip(np.split(rows, at), faces, strict=True)]
+    return np.concatenate((points, points[edges].mean(axis=1))), split
 
 
 def _write_obj(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -30,8 +29,12 @@ from ..settings import Form, MidSurfaceSettings, Settings, Side
 from ..small_matrices import length_of
 from ..united import united
 from .carried_sheets import CarriedSheets, carried
+from .even_quads import even_quads
 from .even_triangles import even_triangles
+from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
+from .thick_faces import ThickFaces, thick_faces
+from .thick_joints import joined_by_thick_parts
 from .thin_sheets import thin_sheets
 
 if TYPE_CHECKING:
@@ -39,6 +42,7 @@ if TYPE_CHECKING:
 
     from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
+    from .thin_sheets import ThinSheets
 
 _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
 _SAME = 1e-7  # of the diagonal: vertices so close are one
@@ -71,6 +75,8 @@ class MidSurface(OfChosenSamples):
     sheets : int
     share : float
         The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
+    thick : ThickFaces or None
+        Where it was asked for, the faces of the solid that no sheet stands for.
     shape : Shape
     chosen : ChosenSamples
     warnings : tuple of str
@@ -85,6 +91,7 @@ class MidSurface(OfChosenSamples):
     of_vertices: NDArray[np.float64]
     sheets: int
     share: float
+    thick: ThickFaces | None
     shape: Shape
     chosen: ChosenSamples
     warnings: tuple[str, ...]
@@ -141,8 +148,8 @@ def mid_surface(
     if not len(thin.triangles):
         raise _nothing_thin(wanted)
     sheets = _welded(carried(thin, _walls(shape, settings)))
-    made = _simplified(sheets, wanted.size, progress)
-    return _with_thickness(made, sheets, thin.parts, shape, found, start)
+    made = _simplified(sheets, wanted, progress)
+    return _with_thickness(made, sheets, thin, shape, found, wanted.keep_thick, start)
 
 
 def _nothing_thin(wanted: MidSurfaceSettings) -> InvalidInputError:
@@ -183,55 +190,68 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Faces:
-    vertices: NDArray[np.float64]
-    offsets: NDArray[np.int32]
-    corners: NDArray[np.int32]
-    part: NDArray[np.int32]
-
-    @cached_property
-    def triangles(self) -> NDArray[np.int32]:
-        return polygon_triangles(self.vertices, self.offsets, self.corners)
-
-    @cached_property
-    def of(self) -> NDArray[np.int64]:
-        """The face of each triangle."""
-        return np.repeat(np.arange(len(self.part)), np.diff(self.offsets) - 2)
-
-
-def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
-    """The sheets with the faces that show their shape, or with even triangles of a size."""
+def _simplified(
+    sheets: CarriedSheets, asked: MidSurfaceSettings, progress: Progress | None
+) -> SheetFaces:
+    """The sheets with the faces that show their shape, or with even ones of a size."""
+    size = asked.size
     whole = wanted = len(sheets.vertices)
     normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
     if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
         wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
-    faces = cast("_Faces", found)
-    if not _are_simple(faces):
-        faces = _triangles_of(sheets)
+    faces = _without_crossings(cast("SheetFaces", found), sheets)
     if size <= 0.0:
         return faces
+    if asked.quads:
+        return even_quads(faces, size, progress and progress.part())
     vertices, triangles, part = even_triangles(
         faces.vertices, faces.triangles, faces.part[faces.of], size, progress and progress.part()
     )
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
-    return _Faces(vertices, offsets, triangles.ravel(), part)
+    return SheetFaces(vertices, offsets, triangles.ravel(), part)
 
 
-def _are_simple(faces: _Faces) -> bool:
-    """Whether no polygon crosses itself: else its triangles overlap, and have more area than it encloses."""
+def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
+    """The faces, but in each group of sheets in which a polygon crosses itself the triangles of the sheets."""
+    crossed = _crossed(faces, _groups(sheets))
+    if not crossed.any():
+        return faces
+    kept, own = ~crossed[faces.part], crossed[sheets.part]
+    sizes = np.diff(faces.offsets)
+    triangles = sheets.triangles[own].ravel() + len(faces.vertices)
+    rows = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
+    used, corners = np.unique(rows, return_inverse=True)
+    ends = np.zeros(kept.sum() + own.sum() + 1, np.int64)
+    ends[1:] = np.cumsum(np.append(sizes[kept], np.full(own.sum(), 3)))
+    return SheetFaces(
+        np.concatenate((faces.vertices, sheets.vertices))[used],
+        ends.astype(np.int32),
+        corners.reshape(-1).astype(np.int32),
+        np.concatenate((faces.part[kept], sheets.part[own])),
+    )
+
+
+def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
+    """(parts,) the same number for sheets that share vertices."""
+    parts = int(sheets.part.max()) + 1
+    pairs = np.column_stack((np.repeat(sheets.part, 3), parts + sheets.triangles.ravel()))
+    return united(parts + len(sheets.vertices), pairs)[:parts]
+
+
+def _crossed(faces: SheetFaces, group: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(parts,) whether a polygon in the group of each sheet crosses itself.
+
+    Then its triangles overlap, and have more area than it encloses.
+    """
     normals, doubled = unit_normals(faces.vertices[faces.triangles])
     enclosed = np.zeros((len(faces.part), 3))
     np.add.at(enclosed, faces.of, normals * doubled[:, None])
-    whole = float(doubled.sum())
-    return whole - float(np.linalg.norm(enclosed, axis=1).sum()) <= _PLAIN * whole
-
-
-def _triangles_of(sheets: CarriedSheets) -> _Faces:
-    offsets = np.arange(0, sheets.triangles.size + 1, 3, dtype=np.int32)
-    return _Faces(sheets.vertices, offsets, sheets.triangles.ravel(), sheets.part)
+    of = group[faces.part]
+    whole = np.bincount(of[faces.of], doubled, len(group))
+    inner = np.bincount(of, np.linalg.norm(enclosed, axis=1), len(group))
+    return np.asarray((whole - inner > _PLAIN * whole)[group])
 
 
 def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
@@ -242,7 +262,7 @@ def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
     return bool((np.linalg.norm(total, axis=1) < (1.0 - _PLAIN) * whole).any())
 
 
-def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> _Faces | None:
+def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> SheetFaces | None:
     with own_errors() as module:
         found = module.reduce_sheets(
             np.ascontiguousarray(sheets.vertices),
@@ -258,7 +278,7 @@ def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> _
         return None
     places, _, row, offsets, corners, part, _ = found
     places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
-    return _Faces(places, offsets, corners, part)
+    return SheetFaces(places, offsets, corners, part)
 
 
 def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
@@ -293,11 +313,12 @@ def _nodes(sheets: CarriedSheets) -> NDArray[np.int32]:
 
 
 def _with_thickness(
-    made: _Faces,
+    made: SheetFaces,
     sheets: CarriedSheets,
-    parts: int,
+    thin: ThinSheets,
     shape: Shape,
     found: Computation,
+    keep_thick: bool,
     start: float,
 ) -> MidSurface:
     triangles, of = made.triangles, made.of
@@ -307,7 +328,7 @@ def _with_thickness(
     sums = [np.bincount(of, column, len(made.part)) for column in middles.T]
     centre = np.column_stack(sums).astype(np.float64)
     centre /= np.where(whole > 0.0, whole, 1.0)[:, None]
-    lengths = _lengths(sheets, parts)
+    lengths = _lengths(sheets, thin.parts)
     thickness = lengths(centre, made.part)
     corner_part = np.repeat(made.part, np.diff(made.offsets))
     of_vertices = np.zeros(len(made.vertices))
@@ -320,11 +341,12 @@ def _with_thickness(
         made.part,
         thickness,
         of_vertices,
-        parts,
+        thin.parts,
         share,
+        thick_faces(shape, made, lengths) if keep_thick else None,
         shape,
         found.chosen,
-        (*found.warnings, *_left_out(share), *_torn(triangles, found)),
+        (*found.warnings, *_left_out(share), *_torn(triangles, found, thin)),
         time.perf_counter() - start,
     )
 
@@ -338,17 +360,24 @@ def _left_out(share: float) -> tuple[str, ...]:
     )
 
 
-def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
-    ends = np.concatenate((triangles[:, :2], triangles[:, 1:]))
-    label = united(int(triangles.max()) + 1, ends)
-    pieces = len(np.unique(label[triangles[:, 0]]))
-    level = found.axis.level
+def _torn(triangles: NDArray[np.int32], found: Computation, thin: ThinSheets) -> tuple[str, ...]:
+    pieces, level = _pieces(triangles), found.axis.level
     if level is None or pieces <= level.betti[0]:
         return ()
+    if pieces - joined_by_thick_parts(found.axis, thin) <= level.betti[0]:
+        return (
+            f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: what joins them is not thin, and is "
+            "left out",
+        )
     return (
         f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: sheets that should meet do not; more "
         "samples may help",
     )
+
+
+def _pieces(triangles: NDArray[np.int32]) -> int:
+    label = united(int(triangles.max()) + 1, np.concatenate((triangles[:, :2], triangles[:, 1:])))
+    return len(np.unique(label[triangles[:, 0]]))
 
 
 def _lengths(

@@ -85,6 +85,9 @@ std::optional<Vec3> on_line_around(const Vec3& place, std::span<const Vec3> arou
 
 // --- the cover of a line
 
+constexpr double kDetour =
+    2;  // times the length of an edge that the way along the line is, at most
+
 using Interval = std::array<double, 2>;
 
 // Holds the knots of a line in their order; a line that branches is several chains.
@@ -130,14 +133,26 @@ class KnotChains {
     return {found->second.chain, from.low + share * (to.low - from.low)};
   }
 
-  // Returns the interval of a chain that an edge covers, if it is on one chain.
-  std::optional<std::pair<int32_t, Interval>> covered(const OnLine& a, const OnLine& b) const {
+  // Adds the intervals of a chain that an edge covers, if it is on one chain: on a ring those of
+  // the shorter way round. An edge over a gap of the line covers none of it, and neither does one
+  // between the two ends of a line that nearly closes.
+  void add_covered(const OnLine& a, const OnLine& b, double straight,
+                   std::vector<std::vector<Interval>>& covers) const {
     Along from = along(a), to = along(b);
-    if (from.chain < 0 && to.chain < 0) return {};
+    if (from.chain < 0 && to.chain < 0) return;
     if (from.chain < 0) from = end_near(to, a);
     if (to.chain < 0) to = end_near(from, b);
-    if (from.chain != to.chain) return {};
-    return std::pair(from.chain, Interval{std::min(from.way, to.way), std::max(from.way, to.way)});
+    if (from.chain != to.chain) return;
+    const Chain& chain = chains_[from.chain];
+    const double low = std::min(from.way, to.way), high = std::max(from.way, to.way);
+    const bool over_start = chain.is_ring() && high - low > 0.5 * chain.end();
+    if ((over_start ? chain.end() - (high - low) : high - low) > kDetour * straight) return;
+    const auto add = [&](double begin, double end) {
+      if (begin < end) covers[from.chain].push_back({begin, end});
+    };
+    if (!over_start) return add(low, high);
+    add(chain.begin(), low);
+    add(high, chain.end());
   }
 
   // Draws intervals of a chain together, each to its middle, or to the end of the chain if it
@@ -186,6 +201,7 @@ class KnotChains {
 
     double begin() const { return knots.front().low; }
     double end() const { return knots.back().high; }
+    bool is_ring() const { return knots.front().id == knots.back().id; }
   };
   struct Segment {
     int32_t chain;
@@ -287,10 +303,12 @@ void cover_once(std::vector<Vec3>& knots, std::span<const Edge> rims, std::span<
                 std::span<OnLine> at) {
   KnotChains chains(knots, at, web);
   std::vector<std::vector<Interval>> covers(chains.count());
+  const auto place = [&](int32_t v) {
+    const Vec3 &from = knots[at[v].knots[0]], &to = knots[at[v].knots[1]];
+    return from + at[v].share * (to - from);
+  };
   for (const auto& [a, b] : rims) {
-    const auto covered = chains.covered(at[a], at[b]);
-    if (covered && covered->second[0] < covered->second[1])
-      covers[covered->first].push_back(covered->second);
+    chains.add_covered(at[a], at[b], distance(place(a), place(b)), covers);
   }
   std::vector<KnotChains::Along> along;
   for (const int32_t v : web) along.push_back(chains.along(at[v]));

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons of sheets, and their triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..axis.polygon_triangles import polygon_triangles
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class SheetFaces:
+    """The polygons of sheets.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    offsets : (f + 1,) int32
+    corners : (c,) int32
+        Face i has the corners `corners[offsets[i]:offsets[i + 1]]`. Those of a sheet turn the same way.
+    part : (f,) int32
+        The sheet of each face.
+    """
+
+    vertices: NDArray[np.float64]
+    offsets: NDArray[np.int32]
+    corners: NDArray[np.int32]
+    part: NDArray[np.int32]
+
+    @cached_property
+    def triangles(self) -> NDArray[np.int32]:
+        """(c - 2 f, 3) those of face after face."""
+        return polygon_triangles(self.vertices, self.offsets, self.corners)
+
+    @cached_property
+    def of(self) -> NDArray[np.int64]:
+        """The face of each triangle."""
+        return np.repeat(np.arange(len(self.part)), np.diff(self.offsets) - 2)
+
+    def ring(self, face: int) -> NDArray[np.float64]:
+        """(k, 3) the places round a face."""
+        return self.vertices[self.corners[self.offsets[face] : self.offsets[face + 1]]]
