@@ -18,7 +18,9 @@ from .smooth_line import at_marks, marks_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_STRAIGHT = 0.6  # the cosine of the largest turn at a fork that is one line; three equal angles are none
+_STRAIGHT = (
+    0.6  # the cosine of the largest turn at a fork that is one line; three equal angles are none
+)
 
 
 @dataclass(frozen=True)
