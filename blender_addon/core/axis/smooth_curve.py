@@ -333,7 +333,7 @@ def _edges_of(
         way = np.array([line.chain[0], *range(next_row, next_row + count), line.chain[-1]])
         next_row += count
         pieces.append(np.column_stack((way[:-1], way[1:])))
-        at = np.concatenate(([0.0], line.at, [len(line.chain) - 1.0]))
+        at = np.concatenate((np.zeros(1), line.at, np.full(1, len(line.chain) - 1.0)))
         steps = np.floor(0.5 * (at[:-1] + at[1:])).astype(np.int64)
         pairs = zip(line.chain[:-1], line.chain[1:], strict=True)
         wires = np.array([row_of[min(a, b), max(a, b)] for a, b in pairs])
