@@ -36,24 +36,26 @@ def rho_range(
     """
     if settings.criteria is Criteria.ANGLE:
         return None
-    analysis, rows = samples.analysis, _rows(samples, settings, hierarchy)
-    both = settings.rule is Rule.BOTH
-    rho = (analysis.rho_both if both else analysis.rho)[rows]
+    rho, theta = _of_facets(samples, settings, hierarchy)
     if settings.criteria is Criteria.ANGLE_OR_RATIO:
-        theta = (analysis.theta_both if both else analysis.theta)[rows]
         rho = rho[theta <= settings.theta]
     return slider_range(rho, np.ones(len(rho)))
 
 
-def _rows(
+def _of_facets(
     samples: AnalysedSamples, settings: Settings, hierarchy: Any | None
-) -> NDArray[np.integer]:
-    """Return rows of the edges of the analysis whose facets can be selected on a side; they are kept."""
-    kept = samples.kept_facets
-    key = settings.side, hierarchy is None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return Rho and Theta of facets that can be selected on a side, which are kept."""
+    kept, both = samples.kept_facets, settings.rule is Rule.BOTH
+    key = settings.side, both, hierarchy is None
     if key not in kept:
-        rows = _tried(samples.analysis, settings) if hierarchy is None else None
-        kept[key] = _of_hierarchy(samples.analysis, hierarchy) if rows is None else rows
+        analysis = samples.analysis
+        rows = (
+            _tried(analysis, settings) if hierarchy is None else _of_hierarchy(analysis, hierarchy)
+        )
+        rho = analysis.rho_both if both else analysis.rho
+        theta = analysis.theta_both if both else analysis.theta
+        kept[key] = rho[rows], theta[rows]
     return kept[key]
 
 
