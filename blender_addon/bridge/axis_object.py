@@ -13,7 +13,7 @@ import numpy as np
 from ..core.axis.clip import within_box
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.crumbs import crumbs_below, without_crumbs
-from ..core.axis.cut import pieces, without_small_pieces
+from ..core.axis.cut import pieces, without_shards, without_small_pieces
 from ..core.axis.verdict import verdict
 from ..core.options import Choice
 from ..core.settings import (
@@ -204,6 +204,7 @@ def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialA
         low, high = np.reshape(box, (2, 3))
         near = within_box(axis, low, high, look.within)
         axis = near if near.facets else axis
+    axis = without_shards(axis, look.crumbs)
     return without_small_pieces(axis, look.smallest_island / 100)
 
 

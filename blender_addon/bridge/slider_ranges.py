@@ -19,15 +19,17 @@ RANGES = {
     "erode": "ma_erode_range",
     "spike": "ma_spike_range",
     "limb": "ma_limb_range",
+    "rho": "ma_rho_range",
 }
 
 
 def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
-    """Keep the ranges of a level on its object, or forget older ones."""
+    """Keep the ranges of an axis on its object, or forget older ones."""
     ranges = {} if axis.level is None else axis.level.ranges
     for name, key in RANGES.items():
-        if name in ranges:
-            result[key] = [*ranges[name].lengths, *ranges[name].shares]
+        found = axis.rho_range if name == "rho" else ranges.get(name)
+        if found is not None:
+            result[key] = [*found.lengths, *found.shares]
         else:
             result.pop(key, None)
 

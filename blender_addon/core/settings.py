@@ -617,7 +617,8 @@ class Look(Options):
     crumbs: float = number(
         "Crumbs",
         "Pieces of a clean form or a curve without facets that are smaller than so many spacings of the "
-        "samples are not shown, unless the closed faces have them, too; 0: all pieces",
+        "samples are not shown, unless the closed faces have them, too; of an outer axis, pieces smaller than so "
+        "many of their balls; 0: all pieces",
         default=1.0,
         limits=(0.0, 4.0),
     )

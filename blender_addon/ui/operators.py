@@ -28,7 +28,6 @@ from ..core.settings import (
     OPTIONS,
     SAMPLING_OPTIONS,
     Form,
-    Look,
     applies_to_form,
 )
 from ..core.solid.reconstruction import reconstruct
@@ -38,6 +37,7 @@ from .preferences import memory_limit
 from .properties import (
     SamplingProperties,
     draw_sampling,
+    look_from,
     prop,
     settings_from,
     with_options,
@@ -86,12 +86,12 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     def write(self, thing, computation, frame):
         if computation.axis.is_empty:
             return None
-        return write_result(thing, computation, frame, settings_from(self, Look))
+        return write_result(thing, computation, frame, look_from(self))
 
     def write_part(self, part, thing, computation, frame):
         if computation.axis.is_empty:
             raise MedialAxisError(computation.warnings[-1])
-        look = settings_from(self, Look)
+        look = look_from(self)
         return write_result_of_part(thing, part, computation, frame, look)
 
     def settle(self, made):

@@ -20,6 +20,7 @@ from .form_panel import draw_form
 from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, shown_report, shown_result, shown_surface
+from .ranged_sliders import row_of_slider
 from .selected_sources import has_faces, obstacle, sources
 from .show import draw_colours, draw_source, shows_colours
 from .shown import shown_frame, shown_thing
@@ -131,10 +132,11 @@ def _settle_when_changed(context):
 def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(context, column, settings)
-    for name, does_little in _thresholds(shown_result(context)).items():
+    result = shown_result(context)
+    for name, does_little in _thresholds(result).items():
         row = column.row()
         row.active = not does_little
-        row.prop(settings, name, slider=True)
+        row.prop(settings, row_of_slider(context, name, result), slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")

@@ -31,6 +31,7 @@ from ..core.settings import (
     LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
+    Form,
     Look,
     Prepare,
     SamplingMode,
@@ -140,6 +141,12 @@ def copy_settings(source, target, options=OPTIONS | LOOKS | DIVISION) -> None:
             setattr(target, name, getattr(source, name))
 
 
+def look_from(properties) -> Look:
+    """The look of a panel or of an operator; an axis as published is shown as it is, with its crumbs."""
+    look = settings_from(properties, Look)
+    return replace(look, crumbs=0.0) if properties.form == Form.PUBLISHED.name else look
+
+
 def _value(option, value):
     if isinstance(option, Choice):
         return type(option.default)[value]
@@ -230,7 +237,7 @@ def _watch_undo():
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = _wanted(kept, panel)
-    show = partial(_show_refiltered, settings_from(panel, Look))
+    show = partial(_show_refiltered, look_from(panel))
     if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
         _watch_undo()
         wires_group()  # the thread's update is no step of undo, and may only use what a step has

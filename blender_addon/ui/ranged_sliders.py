@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The four sliders of Form in the panel as shares of what can go: files and keyframes keep the length.
+"""The four sliders of Form, and Rho, in the panel as shares of what can go: files and keyframes keep the length.
 
 The lengths over which a slider acts differ from model to model, so each result comes with a range for each slider.
 Without a result, or where the length is keyed or driven, the panel shows the length itself.
@@ -21,6 +21,8 @@ _ABOUT = {
     "1 all that can go",
     "limb": "The share of the branches of loose edges that is dropped, by length, the shortest first: 0 drops none, "
     "1 all that can go",
+    "rho": "The share of the facets that goes, of those that Theta does not keep, the lowest ratios first: 0 drops "
+    "none, 1 all of them",
 }
 
 

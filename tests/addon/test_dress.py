@@ -56,6 +56,12 @@ def balls(source):
     return addon("bridge.balls_object").balls_of(source)
 
 
+def many_balls(source):
+    made = result_of(source)
+    addon("bridge.nodes.groups").add_few_balls(made)
+    return made
+
+
 def thickness(source):
     select(source)
     bpy.ops.object.medial_axis_thickness(limit=0.3)
@@ -108,6 +114,25 @@ def test_a_rebuilt_solid_keeps_the_range_of_its_axis():
     after = colour_range(made)
     assert after == colour_range(result_of(source)) == colour_range(duplicate)
     assert after[1:] == pytest.approx([2 * end for end in before[1:]], rel=0.05)
+
+
+@renders
+@pytest.mark.parametrize(
+    ("key", "name", "make"), [("REBUILD", "Material", rebuilt), ("BALLS", "Coloured", many_balls)]
+)
+def test_a_file_with_the_group_of_an_older_version_gets_a_new_one(key, name, make, tmp_path):
+    """The older group has no such input. It stays, and what is made now renders its colours."""
+    older = addon("bridge.nodes.groups").group(key)
+    if hasattr(older, "interface"):
+        older.interface.remove(older.interface.items_tree[name])
+    else:
+        older.inputs.remove(older.inputs[name])
+    source = ellipsoid()
+    compute(**EVEN)
+    made = make(source)
+    assert_coloured(rendered(made, tmp_path))
+    groups = [modifier.node_group for modifier in made.modifiers if modifier.type == "NODES"]
+    assert older.name in bpy.data.node_groups and older not in groups
 
 
 def test_the_material_of_a_rebuilt_solid_is_an_input():

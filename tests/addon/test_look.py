@@ -327,6 +327,26 @@ def test_outer_axis_is_not_in_front_and_stays_near():
     assert result.show_in_front
 
 
+def test_shards_of_an_outer_axis_are_hidden_but_not_as_published():
+    """The panel hides them live, too."""
+    source = suzanne(levels=0)
+    compute(side="OUTER", form="PUBLISHED", within=0.0)
+    result, panel = result_of(source), bpy.context.scene.medial_axis
+    pieces, facets = result["ma_pieces"], len(result.data.polygons)
+    assert result["ma_hidden"] == 0
+    select(source)
+    compute(side="OUTER", form="CLEAN", within=0.0)
+    assert 1 <= result["ma_pieces"] < pieces
+    assert len(result.data.polygons) + result["ma_hidden"] == facets
+    select(source)
+    panel.side, panel.within, panel.crumbs = "OUTER", 0.0, 0.0
+    assert result["ma_pieces"] == pieces
+    panel.crumbs = 1.0
+    assert result["ma_pieces"] < pieces
+    panel.form = "PUBLISHED"
+    assert result["ma_pieces"] == pieces
+
+
 def test_small_islands_are_hidden_on_demand_and_counted():
     source = suzanne(levels=0)
     compute(sampling="AUTOMATIC")

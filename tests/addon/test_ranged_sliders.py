@@ -74,6 +74,22 @@ def test_files_keep_lengths_and_ranges(result, tmp_path):
     assert "no longer in memory" in panel().note
 
 
-def test_a_published_axis_has_no_ranges(result):
+def test_a_published_axis_has_the_range_of_rho_only(result):
     panel().form = "PUBLISHED"
-    assert not [key for key in result.keys() if key.endswith("_range")]  # noqa: SIM118
+    kept = [key for key in result.keys() if key.endswith("_range")]  # noqa: SIM118
+    assert kept == ["ma_rho_range"]
+
+
+def test_rho_runs_from_all_facets_to_those_that_theta_keeps(result):
+    panel().form = "PUBLISHED"
+    assert shown_row("rho") == "rho_share" and result["ma_rho"] == panel().rho == 8.0
+    panel().rho_share = 0.0
+    whole = facets(result)
+    panel().rho_share = 1.0
+    least = facets(result)
+    assert least < 0.8 * whole  # else the test sees nothing
+    panel().rho_share = 0.5
+    assert facets(result) == pytest.approx(0.5 * (whole + least), rel=0.02)
+    assert result["ma_rho"] == pytest.approx(panel().rho) and 1.0 < panel().rho < 8.0
+    panel().criteria = "ANGLE"
+    assert shown_row("rho") == "rho"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pieces of an axis, judged by SciPy; and what is left when small or far ones go."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from medial_axis.core.axis import cut
@@ -80,3 +82,40 @@ def test_what_stays_is_as_it_was():
         np.testing.assert_array_equal(left.radius[mine], axis.radius[whole])
     for name in ("theta", "rho", "side", "generators"):
         np.testing.assert_array_equal(getattr(left, name), getattr(axis, name)[rows])
+
+
+# --- shards
+
+
+def strips(*lengths, side=2):
+    """Triangles of these lengths along X, far from each other, with balls of radius 1."""
+    points = [
+        p for k, x in enumerate(lengths) for p in ((0, 9 * k, 0), (x, 9 * k, 0), (x, 9 * k, 0.1))
+    ]
+    polygons = np.arange(len(points)).reshape(-1, 3)
+    axis = axis_of(points, polygons)
+    sides = np.full(len(polygons), side, np.int32)
+    return replace(axis, radius=np.ones(len(points)), side=sides)
+
+
+def test_outer_pieces_smaller_than_their_balls_go():
+    axis = strips(30.0, 1.9, 2.1, 0.1)
+    assert cut.without_shards(axis, 1.0).theta.tolist() == [0.0, 2.0]
+    assert cut.without_shards(axis, 0.5).theta.tolist() == [0.0, 1.0, 2.0]
+    assert cut.without_shards(axis, 0.0) is axis
+    huge = replace(axis, vertices=1e200 * axis.vertices, radius=1e200 * axis.radius)
+    assert cut.without_shards(huge, 1.0).theta.tolist() == [0.0, 2.0]
+
+
+def test_inner_pieces_and_the_largest_stay():
+    inner = strips(30.0, 0.1, side=1)
+    assert cut.without_shards(inner, 1.0) is inner
+    mixed = replace(strips(30.0, 0.1, 0.1), side=np.array((2, 1, 2), np.int32))
+    assert cut.without_shards(mixed, 1.0).theta.tolist() == [0.0, 1.0]
+    small = strips(0.1, 0.1)
+    assert cut.without_shards(small, 1.0).facets == 1
+
+
+def test_balls_without_a_radius_are_no_reason_to_drop_a_piece():
+    axis = replace(strips(30.0, 1.0, 1.0), radius=np.repeat((1.0, 0.0, np.inf), 3))
+    assert cut.without_shards(axis, 1.0).theta.tolist() == [0.0, 1.0]

@@ -24,21 +24,30 @@ _BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 @dataclass(frozen=True)
 class Group:
-    """A group: how it is called, what it is for, and whether it works on medial axes."""
+    """A group: how it is called, what it is for, whether it works on medial axes, and inputs that older ones lack."""
 
     name: str
     about: str
     build: Callable[[str], bpy.types.GeometryNodeTree]
     of_axes: bool = True
+    newer: tuple[str, ...] = ()
 
 
 GROUPS = {
     "FILTER": Group(
         "Medial Axis Filter", "Leave out facets by angle, ratio, radius and sheet", filter.build
     ),
-    "BALLS": Group("Medial Axis Balls", "A sphere at each vertex, as large as there", balls.build),
+    "BALLS": Group(
+        "Medial Axis Balls",
+        "A sphere at each vertex, as large as there",
+        balls.build,
+        newer=(balls.COLOURED,),
+    ),
     "REBUILD": Group(
-        "Medial Axis Rebuild", "The solid again, thicker, thinner or simpler", rebuild.build
+        "Medial Axis Rebuild",
+        "The solid again, thicker, thinner or simpler",
+        rebuild.build,
+        newer=(rebuild.MATERIAL,),
     ),
     "COLOUR": Group(
         "Medial Axis Thickness Colour",
@@ -60,9 +69,10 @@ def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
 
 
 def group(key: str) -> bpy.types.GeometryNodeTree:
-    """The group of this file, built when it has none; changes that a user made in it stay."""
+    """The group of this file, built when it has none, or one of an older version only; changes that a user made in it
+    stay, and an older one stays where it is used."""
     for found in bpy.data.node_groups:
-        if found.library is None and is_group(found, key):
+        if found.library is None and is_group(found, key) and has_inputs(found, *GROUPS[key].newer):
             return found
     made = GROUPS[key].build(GROUPS[key].name)
     made[_BUILT_BY] = key
@@ -85,10 +95,9 @@ def add_modifier(thing: bpy.types.Object, key: str) -> bpy.types.NodesModifier:
 
 
 def add_coloured_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
-    """The modifier with the group of balls, coloured where the file has no older group."""
+    """The modifier with the group of balls, coloured."""
     modifier = add_modifier(thing, "BALLS")
-    if has_inputs(modifier.node_group, balls.COLOURED):
-        set_inputs(modifier, {balls.COLOURED: True})
+    set_inputs(modifier, {balls.COLOURED: True})
     return modifier
 
 

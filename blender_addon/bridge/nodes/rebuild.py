@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 # Grids of distances came with 4.x, behind an experimental option, and are there for all from 5.0.
 HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)
+MATERIAL = "Material"
 _VOXEL = 2.0**-7  # the size at which the solid is made
 
 
@@ -38,7 +39,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     mesh = _scaled(tree, mesh, tree.math("DIVIDE", voxel, _VOXEL))
     mesh = _coloured(tree, mesh, points)
     about = "Of the solid; the usual one has the colours of radii"
-    material = tree.input("NodeSocketMaterial", "Material", radius_material(), about)
+    material = tree.input("NodeSocketMaterial", MATERIAL, radius_material(), about)
     mesh = tree.node("GeometryNodeSetMaterial", mesh, named={"Material": material})
     return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
 

@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .medial_axis import MedialAxis
 
+_OUTER = 2  # value of `MedialAxis.side`
 _PER_FACET = ("theta", "rho", "side", "generators")
 
 
@@ -40,6 +43,31 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
     piece = pieces(axis)
     counts = np.bincount(piece)
     large = counts >= share * axis.facets
+    large[0] = True
+    return axis if large.all() else with_facets(axis, large[piece])
+
+
+def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
+    """Drop the outer pieces that are smaller than so many diameters of their balls; the largest piece always stays.
+
+    The diagonal of the bounding box of a piece counts, and the mean of the balls at its corners. Sheets of the outside
+    reach many diameters far; a piece that does not is a remainder of one that the thresholds have not kept.
+    """
+    if diameters <= 0.0 or not (axis.side == _OUTER).any():
+        return axis
+    piece = pieces(axis)
+    of_corner = np.repeat(piece, np.diff(axis.face_offsets))
+    places, count = axis.vertices[axis.face_vertices], int(piece.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, of_corner, places)
+    np.maximum.at(high, of_corner, places)
+    corners = np.bincount(of_corner, minlength=count)
+    mean = np.bincount(of_corner, axis.radius[axis.face_vertices], count) / corners
+    with np.errstate(divide="ignore", invalid="ignore"):
+        box = (high - low) / mean[:, None]
+    across = np.sqrt(dot(box, box))
+    outer = np.bincount(piece, axis.side != _OUTER, count) == 0
+    large = ~outer | ~(across < 2.0 * diameters)  # what is no number stays
     large[0] = True
     return axis if large.all() else with_facets(axis, large[piece])
 

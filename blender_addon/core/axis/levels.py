@@ -19,6 +19,7 @@ from ..settings import Form, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
+from .rho_range import rho_range
 from .slider_range import ranges_of
 from .smooth_curve import smooth_curve
 from .structure import structure_of
@@ -93,6 +94,7 @@ def extract_level(
             ranges=samples.levels.kept("ranges", hierarchy, ranges_of),
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
+        rho_range=rho_range(samples, settings, hierarchy),
     )
     if settings.form is not Form.CURVE:
         return axis

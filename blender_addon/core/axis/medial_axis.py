@@ -115,6 +115,8 @@ class MedialAxis:
         None: the axis is as published.
     structure : Structure or None
         Sheets, seams, rims, junctions and corners; only of levels, and None where they are not known.
+    rho_range : SliderRange or None
+        The range of Rho at the other thresholds; None where Rho does nothing, or where the range is not known.
     """
 
     vertices: NDArray[np.float64]
@@ -130,6 +132,7 @@ class MedialAxis:
     edges: NDArray[np.int32] = field(default_factory=no_edges)
     level: LevelValues | None = None
     structure: Structure | None = None
+    rho_range: SliderRange | None = None
 
     @property
     def facets(self) -> int:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lengths over which the sliders of a level act, and the share of what can go that each of them takes away.
+"""The lengths over which sliders act, and the share of what can go that each of them takes away.
 
 Simplify drops whole sheets, Erode and Spikes facets, and Limbs edges, each at its own length. On one model all of
 them go below 3 % of the diagonal, on another nothing does. A slider that runs over shares acts from end to end
-on both.
+on both. Rho is a ratio and no length; on most models it selects facets between 1.5 and 16 only.
 """
 
 from __future__ import annotations
@@ -18,8 +18,10 @@ from .directions import facet_areas
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+
 _BEYOND = 1.02  # this multiple of the largest length takes away everything
 _STEPS = 256  # shares are told apart up to one of so many parts
+_ENOUGH = 65_536  # so many facets tell the shares
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class SliderRange:
     Parameters
     ----------
     lengths, shares : tuple of k float
-        Both rise; the lengths are in percent of the diagonal.
+        Both rise; the lengths are in percent of the diagonal. Those of Rho are ratios.
     """
 
     lengths: tuple[float, ...]

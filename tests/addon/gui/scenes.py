@@ -689,7 +689,7 @@ def scene_first_glance():
         assert (shading.type, shading.color_type) == kept, "nobody pressed Show Colours"
         assert result.parent == source and "ma_color" in result.data.color_attributes
         show_colours()
-        yield 0.7
+        yield patience(0.7)
         look(f"{name}-3-colours")
         assert (shading.type, shading.color_type) == ("SOLID", "VERTEX")
         show_colours()
