@@ -75,6 +75,29 @@ TEST(Patch, IsNowhereNearerThanItsLeastDistance) {
   }
 }
 
+// The patch bulges upwards, so points below are nowhere nearer to it than to its flat triangle.
+TEST(Patch, BulgesNoWayThatLeadsAwayFromAllPointsOnTheOtherSide) {
+  const Patch bent = bent_patch(),
+              tilted{{0, 0, 0},
+                     {1, 0, 0},
+                     {0, 1, 0},
+                     {Vec3{0.3, -0.1, 0.1}, Vec3{0.8, 0, 0.1}, Vec3{0.7, 0.4, 0.2},
+                      Vec3{0.3, 0.7, -0.05}, Vec3{0, 0.7, 0.1}, Vec3{-0.1, 0.3, 0.1}}};
+  EXPECT_LT(bent.bulge({0, 0, 1}), 0.25 * bent.bulge());
+  EXPECT_EQ(bent.bulge({0, 0, -1}), bent.bulge());
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 x{4 * unit(random) - 2, 4 * unit(random) - 2, -2 * unit(random)};
+    const Barycentric flat = closest_on_flat({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, x);
+    const double least = distance(x, {flat.b, flat.c, 0});
+    for (const Patch& patch : {bent, tilted}) {
+      const Vec3 at = patch.point(closest_on_patch(patch, flat, x));
+      EXPECT_GE(distance(x, at), least - patch.bulge({0, 0, 1}) - 1e-14) << trial;
+    }
+  }
+}
+
 TEST(OrientedBox, HoldsItsPointsAndFitsThem) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> unit(0, 1);

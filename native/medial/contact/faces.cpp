@@ -39,7 +39,8 @@ Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run&
       const auto t = static_cast<int32_t>(id);
       const Patch patch = surface_->patch(t);
       const double bulge = patch.bulge();
-      bulge_[t] = bulge > kFlat * max_abs(patch.box().extent()) ? rounded_up(bulge) : 0;
+      if (!(bulge > kFlat * max_abs(patch.box().extent()))) return;
+      bulge_[t] = {rounded_up(bulge), rounded_up(patch.bulge(mesh_.normal[t]))};
     });
   }
   build_tree_of_faces();
@@ -127,7 +128,7 @@ OrientedBox Faces::box_round(std::span<const int32_t> triangles,
       controls.insert(controls.end(), patch.controls().begin(), patch.controls().end());
     } else {
       controls.insert(controls.end(), {p, q, r});
-      if (is_curved(t)) bulge = std::max<double>(bulge, bulge_[t]);
+      if (is_curved(t)) bulge = std::max<double>(bulge, bulge_[t].most);
     }
   }
   OrientedBox box = oriented_box(normal, controls);
@@ -237,7 +238,10 @@ std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
 // Returns the foot on a triangle, or nothing if it is certain that none is nearer than a distance.
 std::optional<Foot> Faces::foot_within(int32_t triangle, const Vec3& from, double within) const {
   if (!is_curved(triangle)) return foot_on(triangle, from);
-  if (flat_foot(triangle, from).distance - bulge(triangle) > within) return {};
+  const Vec3& corner = mesh_.points[mesh_.triangles[triangle][0]];
+  const bool is_inside = dot(from - corner, mesh_.normal[triangle]) < 0;
+  const double room = is_inside ? bulge_[triangle].inwards : bulge_[triangle].most;
+  if (flat_foot(triangle, from).distance - room > within) return {};
   const Patch patch = surface_->patch(triangle);
   if (least_squared_distance(patch, from) >= within * within) return {};
   const auto corners = patch.controls();

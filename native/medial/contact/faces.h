@@ -63,8 +63,8 @@ class Faces {
   }
 
   // Returns how far the surface is at most from the flat triangle.
-  double bulge(int32_t triangle) const { return bulge_.empty() ? 0 : bulge_[triangle]; }
-  bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle] > 0; }
+  double bulge(int32_t triangle) const { return bulge_.empty() ? 0 : bulge_[triangle].most; }
+  bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle].most > 0; }
   Vec3 point(int32_t triangle, const Barycentric& at) const;
   Vec3 normal(int32_t triangle, const Barycentric& at) const {
     return surface_->normal(triangle, at);
@@ -131,6 +131,11 @@ class Faces {
     OrientedBox box;
   };
 
+  struct Bulge {
+    float most = 0;
+    float inwards = 0;  // without what leads away from all points on the inner side
+  };
+
   Foot flat_foot(int32_t triangle, const Vec3& from) const;
   Foot lifted(const Foot& flat, const Vec3& from) const;
   void find_edges();
@@ -153,7 +158,7 @@ class Faces {
   std::vector<std::array<int32_t, 3>> edge_of_;
   std::vector<uint8_t> separates_;              // per edge
   std::vector<std::array<int32_t, 3>> fan_of_;  // the triangles round a corner in one wall
-  std::vector<float> bulge_;                    // per triangle, rounded up; empty if all are flat
+  std::vector<Bulge> bulge_;                    // per triangle, rounded up; empty if all are flat
   std::vector<int32_t> order_;                  // triangles, leaf after leaf
   std::vector<Node> nodes_;
 };

@@ -242,13 +242,17 @@ PatchExpansion PatchPolynomial::expansion(double b, double c) const {
 }
 
 // A patch is a mean of its control points, its flat triangle the same mean of those of a flat one.
-double Patch::bulge() const {
+double Patch::bulge(const Vec3& free) const {
   if (flat_) return 0;
   const auto& [p, q, r, pq, qp, qr, rq, rp, pr, centre] = controls_;
-  double most = distance(centre, (1.0 / 3) * (p + q + r));
-  const auto take = [&](const Vec3& handle, const Vec3& near, const Vec3& far) {
-    most = std::max(most, distance(handle, (1.0 / 3) * (2 * near + far)));
+  double most = 0;
+  const auto count = [&](const Vec3& way) {
+    most = std::max(most, length(way - std::max(dot(way, free), 0.0) * free));
   };
+  const auto take = [&](const Vec3& handle, const Vec3& near, const Vec3& far) {
+    count(handle - (1.0 / 3) * (2 * near + far));
+  };
+  count(centre - (1.0 / 3) * (p + q + r));
   take(pq, p, q);
   take(qp, q, p);
   take(qr, q, r);

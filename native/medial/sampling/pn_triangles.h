@@ -50,8 +50,9 @@ class Patch {
   // Returns the control points, which hold the patch between them: the corners, and of a cubic
   // patch the handles and the one in the middle.
   std::span<const Vec3> controls() const { return {controls_.data(), flat_ ? size_t{3} : 10}; }
-  // Returns how far the patch is at most from its flat triangle.
-  double bulge() const;
+  // Returns how far the patch is at most from its flat triangle. A way along `free`, a unit vector
+  // across that triangle, does not count, as it leads away from all points on the other side.
+  double bulge(const Vec3& free = {}) const;
   // Returns a box that holds the patch.
   Box box() const;
 

@@ -13,11 +13,14 @@ bool is_certain(const Thickness& value) {
 void place(CrispState& state, CreaseRims& creases, int32_t v) {
   if (state.on_rim[v] && creases.onto_crease(v)) return;
   Touch found;
+  Walls before;
   for (const bool thorough : {false, true}) {
     const Walls walls = walls_at(state, v, thorough);
     if (walls.count < 2) return;
+    if (walls == before) break;
     found = touch(state, v, walls, state.complex.position[v]);
     if (found.radius > 0) break;
+    before = walls;
   }
   state.made.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
   if (!(found.radius > 0)) return;

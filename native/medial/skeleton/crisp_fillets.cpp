@@ -28,9 +28,8 @@ Touch last_ball(const CrispState& state, int32_t v, const Walls& walls, const Ve
   double low = 0, high = 1;
   for (int i = 0; i < kBisections; ++i) {
     const double share = 0.5 * (low + high);
-    const Touch ball = touch(state, v, walls, (1 - share) * inner + share * beyond);
-    const bool ends =
-        !(ball.radius > 0) || ball.walls.count != 2 || openness(ball.away) < openness_at_least;
+    const Touch ball = touch(state, v, walls, (1 - share) * inner + share * beyond, 2);
+    const bool ends = !(ball.radius > 0) || openness(ball.away) < openness_at_least;
     (ends ? high : low) = share;
     if (!ends) last = ball;
   }

@@ -174,13 +174,13 @@ class Unfolder {
   // it.
   Touch nearly_placed(int32_t v, const Vec3& here) const {
     Touch best;
+    double within = kAside * c_.spacing_at(v);
     const auto take = [&](const Walls& walls) {
       if (walls.count != 2) return;
-      const Touch found = nearly_touching(c_, v, walls, here);
-      if (!(found.radius > 0) || distance(found.position, here) > kAside * c_.spacing_at(v)) return;
-      if (best.radius > 0 && distance(best.position, here) <= distance(found.position, here))
-        return;
+      const Touch found = nearly_touching(c_, v, walls, here, within);
+      if (!(found.radius > 0)) return;
       best = found;
+      within = distance(found.position, here);
     };
     take(c_.walls[v]);
     c_.for_edges(v, [&](const Corner&, int32_t other) { take(c_.walls[other]); });

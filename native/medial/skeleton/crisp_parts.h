@@ -19,6 +19,7 @@ struct Walls {
     triangle[count++] = t;
     return true;
   }
+  bool operator==(const Walls&) const = default;
 };
 
 struct Touch {
@@ -108,12 +109,15 @@ class CrispState {
 // Returns the walls of a vertex: its samples are of one wall where no facet separates them. On a
 // curved wall all samples mostly have one foot, so the first one will do unless `thorough`.
 Walls walls_at(const CrispState& state, int32_t v, bool thorough);
-// Finds the ball that touches some walls near a place. A wall that it sticks out of is added.
-Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start);
+// Finds the ball that touches some walls near a place. A wall that it sticks out of is added, up to
+// a number of walls.
+Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start,
+            size_t most = kMostContacts);
 // Finds a ball that touches some walls, although others are as near but for what smooth faces are
 // off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
-// the nearest face.
-Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start);
+// the nearest face. The place is nearer than a distance to the given one.
+Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start,
+                      double within);
 
 // Returns the squared sine of half the angle between the directions to the first two feet.
 inline double openness(const std::array<Vec3, kMostContacts>& away) {

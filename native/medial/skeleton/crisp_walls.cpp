@@ -131,9 +131,9 @@ class BallFinder {
         spacing_(state.spacing_at(v)),
         tolerance_(kExact * spacing_) {}
 
-  // A wall that the ball sticks out of is added, or replaces another one if there are four. If it
-  // is seen in the direction of a wall already there, the foot on that one was not the nearest.
-  Touch find(Walls walls, Vec3 start) const {
+  // A wall that the ball sticks out of is added, unless there are as many as it may touch. If it is
+  // seen in the direction of a wall already there, the foot on that one was not the nearest.
+  Touch find(Walls walls, Vec3 start, size_t most) const {
     for (int i = 0; i < kMoreWalls; ++i) {
       const Trial trial = tried(walls, start);
       if (!trial.is_ball) return {};
@@ -144,7 +144,7 @@ class BallFinder {
       const size_t same = same_place(trial);
       if (same < walls.count) {
         walls.triangle[same] = trial.nearer->triangle;
-      } else if (!walls.add(trial.nearer->triangle)) {
+      } else if (walls.count >= most || !walls.add(trial.nearer->triangle)) {
         return {};
       }
     }
@@ -221,17 +221,19 @@ Walls walls_at(const CrispState& state, int32_t v, bool thorough) {
   return WallFinder(state).walls_at(v, thorough);
 }
 
-Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start) {
-  return BallFinder(state, v).find(walls, start);
+Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start,
+            size_t most) {
+  return BallFinder(state, v).find(walls, start, most);
 }
 
-Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start) {
+Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start,
+                      double within) {
   const Faces& faces = state.samples.faces();
   const double room = kNearlyEqual * state.spacing_at(v);
   const TouchingBall ball = touching_ball(faces, walls.all(), start);
-  if (!(ball.unequal < room)) return {};
-  const auto nearest = faces.nearer(ball.centre, HUGE_VAL);
-  const bool touches = std::abs(nearest->distance - ball.radius) < room;
+  if (!(ball.unequal < room) || !(distance(ball.centre, start) < within)) return {};
+  const auto nearest = faces.nearer(ball.centre, ball.radius + room);
+  const bool touches = nearest && nearest->distance > ball.radius - room;
   if (!touches || !state.samples.are_near(nearest->point)) return {};
   return {ball.centre, nearest->distance, walls, ball.away};
 }

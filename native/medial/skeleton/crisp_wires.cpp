@@ -41,9 +41,7 @@ Touch wire_end(const CrispState& state, int32_t v, int32_t next) {
     if (t < 0 || !state.samples.faces().is_curved(t)) return {};
     walls.add(t);
   }
-  const Touch end = nearly_touching(state, v, walls, at.position);
-  const bool is_near = distance(end.position, at.position) < kEndFarther * state.spacing_at(v);
-  return end.radius > 0 && is_near ? end : Touch{};
+  return nearly_touching(state, v, walls, at.position, kEndFarther * state.spacing_at(v));
 }
 
 }  // namespace
