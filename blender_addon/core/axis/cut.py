@@ -42,9 +42,7 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
         return axis
     piece = pieces(axis)
     counts = np.bincount(piece)
-    large = counts >= share * axis.facets
-    large[0] = True
-    return axis if large.all() else with_facets(axis, large[piece])
+    return _with_pieces(axis, piece, counts >= share * axis.facets)
 
 
 def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
@@ -67,7 +65,13 @@ def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
         box = (high - low) / mean[:, None]
     across = np.sqrt(dot(box, box))
     outer = np.bincount(piece, axis.side != _OUTER, count) == 0
-    large = ~outer | ~(across < 2.0 * diameters)  # what is no number stays
+    return _with_pieces(
+        axis, piece, ~outer | ~(across < 2.0 * diameters)
+    )  # what is no number stays
+
+
+def _with_pieces(axis: MedialAxis, piece: NDArray[np.intp], large: NDArray[np.bool_]) -> MedialAxis:
+    """Keep the large pieces, and always the largest, which is the first."""
     large[0] = True
     return axis if large.all() else with_facets(axis, large[piece])
 

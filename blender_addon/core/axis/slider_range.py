@@ -18,10 +18,8 @@ from .directions import facet_areas
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-
 _BEYOND = 1.02  # this multiple of the largest length takes away everything
 _STEPS = 256  # shares are told apart up to one of so many parts
-_ENOUGH = 65_536  # so many facets tell the shares
 
 
 @dataclass(frozen=True)

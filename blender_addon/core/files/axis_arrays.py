@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
-NAMES = tuple(
-    name for name in MedialAxis.__dataclass_fields__ if name not in ("level", "structure")
-)
+_OTHERS = ("level", "structure", "rho_range")
+NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name not in _OTHERS)
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti", "place")
 # Only axes whose structure is known have these.
 STRUCTURE_NAMES = FIELDS
