@@ -4,6 +4,7 @@
 import bpy
 
 from ..bridge.output_object import is_gone, source_of
+from . import current_job
 
 _before = {}  # a viewport -> what it showed before Show Colours
 
@@ -53,6 +54,7 @@ class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
         return getattr(context.space_data, "type", "") == "VIEW_3D"
 
     def execute(self, context):
+        current_job.settle()  # the legend comes or goes
         space = context.space_data
         if not shows_colours(space):
             show_colours(space)
