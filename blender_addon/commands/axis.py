@@ -50,13 +50,12 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="reduce the axis to at most N vertices of the same topology (default: 0, all)",
     )
-    files = add_files(found, [suffix[1:] for suffix in FORMATS], "ma")
+    files = add_files(found, FORMATS, "ma", _work)
     files.add_argument(
         "--triangles",
         action="store_true",
         help="write .ply, .obj and .off as triangles in text, which more programs read",
     )
-    found.set_defaults(known=(*FORMATS,), work_from=_work)
     return found
 
 

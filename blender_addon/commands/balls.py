@@ -40,8 +40,7 @@ def parser() -> argparse.ArgumentParser:
     )
     add_options(found.add_argument_group("balls"), BallSettings)
     add_sampling(found.add_argument_group("method"))
-    add_files(found, [suffix[1:] for suffix in BALL_FORMATS], "json")
-    found.set_defaults(known=(*BALL_FORMATS,), work_from=_work)
+    add_files(found, BALL_FORMATS, "json", _work)
     return found
 
 

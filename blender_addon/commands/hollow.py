@@ -34,8 +34,7 @@ def parser() -> argparse.ArgumentParser:
         _HELP,
     )
     add_options(found.add_argument_group("hollow"), HollowSettings)
-    add_files(found, [suffix[1:] for suffix in TRIANGLE_FORMATS], "stl")
-    found.set_defaults(known=(*TRIANGLE_FORMATS,), work_from=_work)
+    add_files(found, TRIANGLE_FORMATS, "stl", _work)
     return found
 
 

@@ -40,8 +40,7 @@ def parser() -> argparse.ArgumentParser:
     )
     add_options(found.add_argument_group("sheets"), MidSurfaceSettings)
     add_sampling(found.add_argument_group("method"))
-    add_files(found, [suffix[1:] for suffix in MID_SURFACE_FORMATS], "inp")
-    found.set_defaults(known=(*MID_SURFACE_FORMATS,), work_from=_work)
+    add_files(found, MID_SURFACE_FORMATS, "inp", _work)
     return found
 
 

@@ -52,8 +52,7 @@ def parser() -> argparse.ArgumentParser:
         "joins these ends (--end=-1,2,3 where a minus comes first)",
     )
     add_sampling(found.add_argument_group("method"))
-    add_files(found, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
-    found.set_defaults(known=(*SKELETON_FORMATS,), work_from=_work)
+    add_files(found, SKELETON_FORMATS, "json", _work)
     return found
 
 

@@ -43,8 +43,7 @@ def parser() -> argparse.ArgumentParser:
         "--unit", default="", metavar="NAME", help="what lengths are in, for the report; mm, say"
     )
     add_sampling(found.add_argument_group("method"))
-    add_files(found, [suffix[1:] for suffix in THICKNESS_FORMATS], "json")
-    found.set_defaults(known=(*THICKNESS_FORMATS,), work_from=_work)
+    add_files(found, THICKNESS_FORMATS, "json", _work)
     return found
 
 

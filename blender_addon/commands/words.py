@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Iterable
 
 from .. import __version__
+from ..core.batch.batch import Work
 from ..core.batch.option_words import add_options
 from ..core.machine.memory_limit import MemoryLimit
 from ..core.settings import Division
@@ -26,9 +28,25 @@ def command_parser(name: str, description: str, epilog: str) -> argparse.Argumen
 
 
 def add_files(
-    parser: argparse.ArgumentParser, formats: list[str], usual: str
+    parser: argparse.ArgumentParser,
+    extensions: Iterable[str],
+    usual: str,
+    work_from: Callable[[argparse.Namespace], Work],
 ) -> argparse._ArgumentGroup:
-    """Adds the arguments that all kinds of work share; returns the group of the files, for more of them."""
+    """Adds what all commands share, and says what files and work they have; returns the group of the files.
+
+    Parameters
+    ----------
+    parser : ArgumentParser
+    extensions : iterable of str
+        Of the files that the command writes, such as ".ma".
+    usual : str
+        The format of files in a folder, such as "ma".
+    work_from : callable
+        Returns the work that the arguments of a command line ask for.
+    """
+    known = tuple(extensions)
+    parser.set_defaults(known=known, work_from=work_from)
     add_options(parser.add_argument_group("memory"), MemoryLimit)
     add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
@@ -41,7 +59,7 @@ def add_files(
     )
     files.add_argument(
         "--format",
-        choices=formats,
+        choices=[extension[1:] for extension in known],
         default=usual,
         help=f"of files in a folder OUTPUT (default: {usual})",
     )

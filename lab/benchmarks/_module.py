@@ -5,6 +5,7 @@ import argparse
 import importlib.util
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,6 +49,18 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
         )
         + "\n"
     )
+
+
+def tell(header: list[str], found: Iterable[list[str]], output: Path | None) -> None:
+    """Print rows as they are found, then their table, which also goes to a file if there is one."""
+    rows = []
+    for row in found:
+        print(" | ".join(row), file=sys.stderr, flush=True)
+        rows.append(row)
+    text = markdown(header, rows)
+    print(text)
+    if output:
+        output.write_text(text, encoding="utf-8")
 
 
 def parser(description: str) -> argparse.ArgumentParser:

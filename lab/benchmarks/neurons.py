@@ -20,7 +20,6 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import io
-import sys
 import time
 import zipfile
 from dataclasses import dataclass
@@ -255,15 +254,8 @@ def main() -> None:
     parser.add_argument("--neurons", type=int, default=3)
     parser.add_argument("--output", type=Path)
     words = parser.parse_args()
-    rows = []
-    for name, tree in trees_of(words.wheel, words.neurons):
-        for found in rows_of(name, tree):
-            print(" | ".join(found), file=sys.stderr, flush=True)
-            rows.append(found)
-    text = _module.markdown(HEADER, rows)
-    print(text)
-    if words.output:
-        words.output.write_text(text, encoding="utf-8")
+    trees = trees_of(words.wheel, words.neurons)
+    _module.tell(HEADER, (row for tree in trees for row in rows_of(*tree)), words.output)
 
 
 if __name__ == "__main__":

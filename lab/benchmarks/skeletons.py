@@ -21,7 +21,6 @@ import importlib.util
 import json
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -292,14 +291,7 @@ def main() -> None:
     parser.add_argument("--files", nargs="+", default=FILES)
     parser.add_argument("--blender", default=shutil.which("blender"))
     words = parser.parse_args()
-    rows = []
-    for found in table(words.files, words.blender):
-        print(" | ".join(found), file=sys.stderr, flush=True)
-        rows.append(found)
-    text = _module.markdown(HEADER, rows)
-    print(text)
-    if words.output:
-        words.output.write_text(text, encoding="utf-8")
+    _module.tell(HEADER, table(words.files, words.blender), words.output)
 
 
 if __name__ == "__main__":

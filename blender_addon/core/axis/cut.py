@@ -65,9 +65,8 @@ def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
         box = (high - low) / mean[:, None]
     across = np.sqrt(dot(box, box))
     outer = np.bincount(piece, axis.side != _OUTER, count) == 0
-    return _with_pieces(
-        axis, piece, ~outer | ~(across < 2.0 * diameters)
-    )  # what is no number stays
+    small = across < 2.0 * diameters  # what is no number stays
+    return _with_pieces(axis, piece, ~(outer & small))
 
 
 def _with_pieces(axis: MedialAxis, piece: NDArray[np.intp], large: NDArray[np.bool_]) -> MedialAxis:
