@@ -3,6 +3,7 @@
 
 import contextlib
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -134,6 +135,24 @@ def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules
     assert [sum("first" in name or "later" in name for name in found) for found in names] == [1] * 4
     assert len(set.union(*names)) == 23 and len(set.intersection(*names)) == 11
     assert [len(found) for found in names] == [14] * 4
+
+
+def test_tests_inside_blender_take_a_share_and_claims_together(rules):
+    """Blender's module is a stand-in that enables nothing; the words are those of the gate."""
+    folder, _ = rules
+    shutil.copy(ROOT / "tests/addon/inside.py", folder)
+    (folder / "test_a.py").write_text("def test_one(): pass\n")
+    (folder / "bpy.py").write_text("from unittest.mock import MagicMock\nops = MagicMock()\n")
+    (folder / "claims").mkdir()
+    words = [sys.executable, str(folder / "inside.py"), "--", "--durations=3", "--share", "1/4"]
+    run = subprocess.run(
+        [*words, f"--claims={folder / 'claims'}"],
+        cwd=ROOT,
+        env={**os.environ, "MEDIAL_AXIS_MODULE": "medial_axis"},
+        capture_output=True,
+        text=True,
+    )
+    assert "1 passed" in run.stdout, run.stdout + run.stderr
 
 
 def test_processes_share_files_and_leave_none_out(rules, tmp_path_factory):
