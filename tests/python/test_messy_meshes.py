@@ -40,6 +40,15 @@ def computed(data_file):
     return compute
 
 
+def faces_of(mesh, result):
+    """The faces that were sampled: those of noisy faces, as a voxel scan has, are moved onto smooth surfaces."""
+    if not any("their vertices were moved" in text for text in result.warnings):
+        return mesh
+    shape = result.chosen.samples.solid.shape
+    assert (shape.triangles == mesh[1]).all()
+    return shape.points, shape.triangles
+
+
 def assert_inside(axis, mesh):
     """All vertices, but for those on the surface itself up to rounding."""
     outside = ~crossings.inside(axis.vertices, *mesh)
@@ -69,7 +78,7 @@ def test_files(medial, computed, name):
     assert_sentences(result)
     if medial.open_edges(*mesh) == 0:
         assert result.sides.source is SidesFrom.SURFACE
-        assert_inside(result.axis, mesh)
+        assert_inside(result.axis, faces_of(mesh, result))
 
 
 @pytest.mark.parametrize("name", SOLID)

@@ -131,7 +131,7 @@ WHAT_IS_FREE = MemoryLimit()
 # A solid has outer facets only at its hollows; the figures are those of a solid with many.
 _OF_LEVELS = {  # {faces: {output: bytes}}
     False: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2700, ".ma": 3570, OBJECT: 3570},
-    True: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2860, ".ma": 3490, OBJECT: 3740},
+    True: {"": 2450, CURVE: 2450, ".npz": 2950, ".ply": 3100, ".ma": 3550, OBJECT: 3740},
 }
 _OF_CRISP, _OF_TRIANGLE = 150, 600  # crisp places, per point and per triangle, in addition
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
@@ -141,9 +141,9 @@ _AT_PEAK = {  # {faces: {side: {output: bytes}}}
         Side.BOTH: {"": 2090, ".ply": 2440, ".ma": 3660, OBJECT: 3730},
     },
     True: {
-        Side.INNER: {"": 1900, ".ply": 2150, ".ma": 2800, OBJECT: 2200},
-        Side.OUTER: {"": 1980, ".ply": 2020, ".ma": 2480, OBJECT: 2470},
-        Side.BOTH: {"": 1990, ".ply": 2240, ".ma": 3500, OBJECT: 3500},
+        Side.INNER: {"": 2200, ".ply": 2350, ".ma": 2850, OBJECT: 2250},
+        Side.OUTER: {"": 2250, ".ply": 2300, ".ma": 2500, OBJECT: 2470},
+        Side.BOTH: {"": 2350, ".ply": 2500, ".ma": 3750, OBJECT: 3500},
     },
 }
 
