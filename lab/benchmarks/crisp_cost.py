@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What exact places cost beside the bare Delaunay triangulation of the same samples: a Markdown table.
+"""Exact places cost so much beside the bare Delaunay triangulation of the same samples: a Markdown table.
 
     python3 lab/benchmarks/crisp_cost.py [--output table.md] [--shapes box ellipsoid] [--meshes spot_low.obj]
         [--samples 20000] [--turns 3] [--bare PROGRAM]
