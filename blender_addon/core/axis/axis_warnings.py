@@ -90,11 +90,15 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
             "exact ball; choose Form Clean to see them"
         )
-    if settings.sides in _OF_POINTS_ALONE and settings.side is Side.INNER:
-        poles = settings.sides is SidesFrom.POLES
+    if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
         return (
-            f"no facet lies inside the surface that {'the poles tell' if poles else 'Tight Cocone closed'}; the axis "
-            "of an open scan may lie beyond the opening: choose side Both, or lower theta or rho"
+            "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
+            "may lie beyond the opening: choose side Both, or lower theta or rho"
+        )
+    if settings.sides is SidesFrom.POLES and settings.side is Side.INNER:
+        return (
+            "no facet lies inside the surface that the poles tell; the axis of an open scan "
+            "may lie beyond the opening: choose side Both, or lower theta or rho"
         )
     spacing = chosen.samples.spacing
     if closed and spacing > (thickness := 2.0 * shape.volume / shape.area):
