@@ -3,6 +3,8 @@
 
 import numpy as np
 import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.settings import Prepare, SamplingMode, Settings, Side, SidesFrom
 from support import inputs, measure, meshes
 from support.pole_labels_reference import Labels
 from support.shapes import SHAPES
@@ -126,6 +128,70 @@ def test_outliers_do_not_turn_it_inside_out(medial, name):
     assert (
         jaccard(inner(medial, poles(medial, points)), exactly_inner(medial, points, shape)) > 0.97
     )
+
+
+# ---- what is said
+
+NO_FACES = np.zeros((0, 3), np.int32)
+WORDS = {"openings": "times as long as most", "off": "not on the surface that the poles tell"}
+
+
+def told(points, faces=NO_FACES, **options):
+    """Return what is said of points whose inside the poles tell, and which of the words are in it."""
+    found = compute(points, faces, Settings(prepare=Prepare.OFF, **options))
+    assert found.settings.sides is SidesFrom.POLES
+    said = " ".join(found.warnings)
+    return said, {name for name, words in WORDS.items() if words in said}
+
+
+def with_a_hole(name, n=4000, wide=0.25):
+    """Samples but for those near the highest one, within so many diagonals."""
+    points = SHAPES[name].sample(n, 0)
+    away = np.linalg.norm(points - points[points[:, 2].argmax()], axis=1)
+    return points[away > wide * np.linalg.norm(np.ptp(points, axis=0))]
+
+
+@pytest.mark.parametrize("name", ["torus", "ellipsoid", "box"])
+def test_wide_openings_are_told(name):
+    """The torus needs no choice: Automatic takes the poles."""
+    points = with_a_hole(name)
+    sides = SidesFrom.AUTOMATIC if name == "torus" else SidesFrom.POLES
+    assert told(points, sides=sides)[1] == {"openings"}
+
+
+def test_points_off_the_surface_are_told():
+    """The poles find an eighth of the facets of a shell whose wall is thinner than the spacing."""
+    said, causes = told(SHAPES["shell"].sample(700, 0))
+    assert causes == {"off"} and "23 of 696 points" in said
+
+
+@pytest.mark.parametrize("n", [1000, 2000, 8000])
+def test_nothing_is_told_where_walls_are_thin_and_right(medial, n):
+    """Most of its points may be not flat, and the inside is right all the same: that is no cause for a warning."""
+    points = SHAPES["shell"].sample(n, 0)
+    assert n == 8000 or np.mean(~flat(medial, points)) > 0.7
+    assert told(points)[1] == set()
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus", "knot", "box", "slab"])
+def test_nothing_is_told_of_clean_samples(name):
+    assert told(SHAPES[name].sample(2000, 0), sides=SidesFrom.POLES)[1] == set()
+
+
+def test_a_sheet_is_told():
+    """A bowl: nothing is inside, and neither theta nor rho is the cause."""
+    xy = np.random.default_rng(0).uniform(-1, 1, (1500, 2))
+    bowl = np.column_stack([xy, 0.1 * (xy**2).sum(axis=1)])[(xy**2).sum(axis=1) < 1.0]
+    said, _ = told(bowl, sides=SidesFrom.POLES)
+    assert f"{len(bowl):,} of {len(bowl):,} points are not on the surface" in said
+    assert "no facet lies inside the surface that the poles tell" in said
+
+
+def test_faces_that_bound_nothing_are_told():
+    points = SHAPES["shell"].sample(2000, 0)
+    faces = np.arange(30, dtype=np.int32).reshape(-1, 3)
+    said, _ = told(points, faces, sampling=SamplingMode.VERTICES, side=Side.BOTH)
+    assert "the 10 faces bound nothing, so their points were read as a cloud" in said
 
 
 # ---- what must not change it

@@ -9,7 +9,7 @@ from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.shape import Shape
-from ..samples.sides import cocone_warnings, look_inward
+from ..samples.sides import cocone_warnings, look_inward, pole_warnings
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..severe import Severe
 from .medial_axis import MedialAxis
@@ -17,6 +17,7 @@ from .medial_axis import MedialAxis
 # A larger share of vertices at which no ball fits between the faces causes a warning. Scans with rough faces have up to
 # 0.25.
 _MANY_REFUSED = 0.4
+_OF_POINTS_ALONE = (SidesFrom.TIGHT_COCONE, SidesFrom.POLES)
 
 
 def axis_warnings(
@@ -31,13 +32,13 @@ def axis_warnings(
             f"the surface is open at {chosen.gaps:,} edges: inside was taken to be behind its "
             "faces; do not trust the axis near the openings"
         )
-    if sides is SidesFrom.TIGHT_COCONE:
+    if sides in _OF_POINTS_ALONE:
         if chosen.gaps and not chosen.sides.is_chosen:
             yield Severe(
                 f"the {len(shape.triangles):,} faces bound nothing, so their points were read as a cloud: "
                 "give sheets thickness (a Solidify modifier), or close the mesh"
             )
-        yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
+        yield from _of_points_alone(chosen)
     normals = samples.normals if sides is SidesFrom.NORMALS else None
     if normals is not None and look_inward(samples.points, normals):
         yield Severe(
@@ -47,6 +48,15 @@ def axis_warnings(
     elif axis.is_empty:
         yield _why_empty(shape, settings, chosen, axis)
     yield from _refused(axis)
+
+
+def _of_points_alone(chosen: ChosenSamples) -> Iterator[str]:
+    """Warn about the surface by which points alone tell the inside."""
+    samples = chosen.samples
+    if chosen.sides.source is SidesFrom.POLES:
+        yield from pole_warnings(samples.analysis, samples.points)
+    else:
+        yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
 
 
 def _refused(axis: MedialAxis) -> Iterator[str]:
@@ -83,6 +93,11 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
     if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
         return (
             "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
+            "may lie beyond the opening: choose side Both, or lower theta or rho"
+        )
+    if settings.sides is SidesFrom.POLES and settings.side is Side.INNER:
+        return (
+            "no facet lies inside the surface that the poles tell; the axis of an open scan "
             "may lie beyond the opening: choose side Both, or lower theta or rho"
         )
     spacing = chosen.samples.spacing

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
+from ..machine import native
 from ..settings import Side, SidesFrom
 from ..severe import Severe
+from ..small_matrices import dot
 from .analysed import Sides
 from .buried_samples import bounding_share
 from .nearness import same_place
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
 # A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1
-# A triangle that is this many times as wide as the median one spans an opening.
+# A triangle, or an edge, that is this many times as wide as the median one spans an opening.
 _WIDE = 10.0
 # Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
 _TURNED = 0.01
@@ -199,10 +201,49 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
         )
 
 
+def pole_warnings(analysis: Any, points: NDArray[np.float64]) -> Iterator[str]:
+    """Warn about suspicious properties of the solid that the poles tell.
+
+    It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
+
+    Parameters
+    ----------
+    analysis : _medial.MedialAnalysis
+        Its sides are from the poles.
+    points : (n, 3) float64
+        The points that were analysed.
+    """
+    crossing = int(native.load().Side.CROSSING)
+    pairs = analysis.edges[analysis.side == crossing]
+    samples, off = len(analysis.samples), len(analysis.samples) - len(np.unique(pairs))
+    if 2 * off > samples:
+        yield Severe(
+            f"{off:,} of {samples:,} points are not on the surface that the poles tell, so inner and outer facets mean "
+            "little: a sheet that bounds no solid, or too few points; side Both needs no inside"
+        )
+        return
+    if off:
+        yield (
+            f"{off:,} of {samples:,} points are not on the surface that the poles tell: "
+            "noise, points inside the shape, or too few of them there"
+        )
+    along = points[pairs[:, 0]] - points[pairs[:, 1]]
+    if wide := _far_above(np.sqrt(dot(along, along))):
+        yield (
+            f"the surface that the poles tell has {wide:,} edges more than {_WIDE:g} times as long as most, across "
+            "openings or where noise tears it: inside is a guess near them"
+        )
+
+
 def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
     edges = np.empty(len(triangles))
     for start in range(0, len(triangles), _CHUNK):
         corners = points[triangles[start : start + _CHUNK]]
         sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
         edges[start : start + _CHUNK] = sides.max(axis=1)
-    return int(np.count_nonzero(edges > _WIDE * np.median(edges)))
+    return _far_above(edges)
+
+
+def _far_above(lengths: NDArray[np.float64]) -> int:
+    """Count the lengths that are many times the median one."""
+    return int(np.count_nonzero(lengths > _WIDE * np.median(lengths))) if len(lengths) else 0
