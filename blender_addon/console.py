@@ -112,6 +112,10 @@ def _said(report: dict[str, Any]) -> str:
             f"{report['count']:,} {_shapes(report)}, {100 * report['covered']:.1f} % of the volume, "
             f"{report['outside']:.4g} outside, surface at most {report['farthest']:.4g} away"
         )
+    if "cavities" in report:
+        cavities = "1 cavity" if report["cavities"] == 1 else f"{report['cavities']:,} cavities"
+        left = percent(report["volume"] / report["volume_of_solid"])
+        return f"{cavities}, {left} of the volume left, wall at least {report['least_wall']:.4g}"
     unit = f" {report['unit']}" if report["unit"] else ""
     if report["minimum"] is None:
         return "no two walls face each other"

@@ -197,6 +197,9 @@ def test_files_and_figures(tmp_path, capsys):
     said = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert said["volume"] == pytest.approx(720 - 120, rel=0.01)
     assert 1.95 < said["least_wall"] <= 2.0 and said["cavities"] == 1
+    words = ["hollow", source, str(tmp_path / "c.stl"), "--wall", "2"]
+    assert cli.main(words) == cli.DONE
+    assert "1 cavity, 83 % of the volume left, wall at least 1.9" in capsys.readouterr().out
     assert (
         cli.main(["hollow", source, str(tmp_path / "b.stl"), "--wall", "5", "--quiet"]) == cli.INPUT
     )

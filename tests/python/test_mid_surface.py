@@ -328,6 +328,40 @@ def test_a_polygon_that_crosses_itself_is_no_face():
     assert middle._without_crossings(simple, sheets) is simple
 
 
+@pytest.mark.parametrize("quads, least", ((False, "0.00076"), (True, "0.0005")))
+def test_a_size_that_makes_too_many_faces_is_refused(quads, least):
+    """A plate of 1 by 0.5; the size is far too small to be squared."""
+    mesh = block(1.0, 0.5, 0.02)
+    words = f"at most 2,000,000 faces, found 1e-200, which makes about inf; choose {least}"
+    with pytest.raises(InvalidInputError, match=words):
+        sheets_of(mesh, Settings(samples=1000), size=1e-200, quads=quads)
+
+
+def star(tips, thickness):
+    """A plate of the shape of a star, from the middle to 0.5."""
+    angle = np.pi * np.arange(2 * tips) / tips
+    rim = np.column_stack((np.cos(angle), np.sin(angle))) * np.tile((0.5, 0.25), tips)[:, None]
+    top, bottom = (np.column_stack((rim, np.full(len(rim), z))) for z in (thickness, 0.0))
+    points = np.concatenate((bottom, top, [(0, 0, 0), (0, 0, thickness)]))
+    i, low, high = np.arange(len(rim)), len(points) - 2, len(points) - 1
+    j, up = np.roll(i, -1), len(rim)
+    faces = (
+        (j, i, 0 * i + low),
+        (i + up, j + up, 0 * i + high),
+        (i, j, j + up),
+        (i, j + up, i + up),
+    )
+    return points, np.concatenate([np.column_stack(each) for each in faces])
+
+
+def test_tips_that_samples_miss_are_told():
+    """All of it is thin, so what is missing is not said to be thick."""
+    found = sheets_of(star(12, 0.005), Settings(samples=1000))
+    assert 0.8 < found.share < 0.99 and np.median(found.thickness) == pytest.approx(0.005)
+    told = [text for text in found.warnings if "of the volume" in text]
+    assert len(told) == 1 and "tips that are narrower than samples are apart, 0.0" in told[0]
+
+
 def test_a_sheet_that_touches_itself_is_divided():
     """Three triangles of one sheet at an edge, which no library remeshes, beside a square that is remeshed."""
     places = [(0, 0, 0), (0, 4, 0), (3, 2, 0), (-3, 2, 1), (-3, 2, -1)]

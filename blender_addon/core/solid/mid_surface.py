@@ -23,6 +23,7 @@ from ..machine.progress import Progress
 from ..samples.chosen import OfChosenSamples
 from ..samples.density import percent
 from ..samples.outward_faces import outward_shape
+from ..samples.sample_spacing import mean_spacing
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Form, MidSurfaceSettings, Settings, Side
@@ -51,6 +52,8 @@ _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squa
 _CURVED = (
     1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
 )
+_TRIANGLES = 4.0 / 3.0**0.5  # equilateral triangles for an area of one squared edge
+_MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
 
 
@@ -197,6 +200,8 @@ def _simplified(
     size = asked.size
     whole = wanted = len(sheets.vertices)
     normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
+    if size > 0.0:
+        _check_size(size, 0.5 * float(doubled.sum()), asked.quads)
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
     if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
         wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
@@ -211,6 +216,18 @@ def _simplified(
     )
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
     return SheetFaces(vertices, offsets, triangles.ravel(), part)
+
+
+def _check_size(size: float, area: float, quads: bool) -> None:
+    """Raise InvalidInputError where a size makes more faces than anyone can use."""
+    each = 1.0 if quads else _TRIANGLES
+    number = each * (area / size) / size  # not the square of the size, which may be 0
+    if number > _MOST_FACES:
+        least = (each * area / _MOST_FACES) ** 0.5
+        raise InvalidInputError(
+            f"Expected a Size that makes at most {_MOST_FACES:,} faces, found {size:.3g}, which makes about "
+            f"{number:.3g}; choose {least:.3g} or more"
+        )
 
 
 def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
@@ -334,6 +351,8 @@ def _with_thickness(
     of_vertices = np.zeros(len(made.vertices))
     np.maximum.at(of_vertices, made.corners, lengths(made.vertices[made.corners], corner_part))
     share = float((whole * thickness).sum()) / shape.volume if shape.volume > 0.0 else float("nan")
+    spacing = mean_spacing(shape.area, len(found.chosen.samples.points))
+    left_out = _left_out(share, float(thickness.min()), spacing)
     return MidSurface(
         made.vertices,
         made.offsets,
@@ -346,17 +365,22 @@ def _with_thickness(
         thick_faces(shape, made, lengths) if keep_thick else None,
         shape,
         found.chosen,
-        (*found.warnings, *_left_out(share), *_torn(triangles, found, thin)),
+        (*found.warnings, *left_out, *_torn(triangles, found, thin)),
         time.perf_counter() - start,
     )
 
 
-def _left_out(share: float) -> tuple[str, ...]:
+def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
     if share >= _MOST:
         return ()
+    if least >= spacing:
+        return (
+            f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides "
+            "what counts as thin",
+        )
     return (
-        f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides what "
-        "counts as thin",
+        f"the sheets have {percent(share)} of the volume; what is not thin is left out, as Least Width decides, and "
+        f"so are tips that are narrower than samples are apart, {spacing:.2g}; more samples reach farther into these",
     )
 
 
