@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them."""
+"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them; and the gap that
+suggests a value of Simplify."""
 
 from __future__ import annotations
 
@@ -21,6 +22,7 @@ RANGES = {
     "limb": "ma_limb_range",
     "rho": "ma_rho_range",
 }
+_GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
 
 
 def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
@@ -32,6 +34,16 @@ def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
             result[key] = [*found.lengths, *found.shares]
         else:
             result.pop(key, None)
+    if axis.level is not None and axis.level.gap is not None:
+        result[_GAP] = axis.level.gap
+    else:
+        result.pop(_GAP, None)
+
+
+def gap_on(result: bpy.types.Object | None) -> float | None:
+    """The value of Simplify between thin sheets and others; None where they have no clear gap."""
+    found = None if result is None else result.get(_GAP)
+    return found if isinstance(found, float) and 0.0 < found < 100.0 else None
 
 
 def range_on(result: bpy.types.Object | None, name: str) -> SliderRange | None:

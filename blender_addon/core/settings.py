@@ -931,7 +931,8 @@ class BallSettings(Options):
         items={
             CoverMode.INSIDE: (
                 "Inside",
-                "No ball reaches out of the solid by more than the Tolerance",
+                "No ball reaches out of the solid by more than the Tolerance; of few balls thin parts, such as ears, "
+                "get none, and Around leaves no part out",
             ),
             CoverMode.AROUND: (
                 "Around",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rows of the panel that choose the form of the axis."""
 
+from ..bridge.slider_ranges import gap_on
 from ..core.settings import Form, applies_to_form
 from .properties import settings_from, shown_result
 from .ranged_sliders import row_of_slider
@@ -30,7 +31,10 @@ def draw_more_of_form(context, layout, panel):
 def _draw_sliders(context, layout, panel, names):
     result = shown_result(context)
     for name in names:
-        layout.prop(panel, row_of_slider(context, name, result), slider=True)
+        row = layout.row(align=True)
+        row.prop(panel, row_of_slider(context, name, result), slider=True)
+        if name == "simplify" and gap_on(result) is not None:
+            row.operator("object.medial_axis_simplify_to_gap", text="", icon="LIGHT")
 
 
 def _that_apply(panel):

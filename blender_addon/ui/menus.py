@@ -15,6 +15,7 @@ _VERBS = (
     {
         "object.medial_axis": "OUTLINER_DATA_MESH",
         "object.medial_axis_reduce": "MOD_DECIM",
+        "object.medial_axis_simplify_to_gap": "LIGHT",
         "object.medial_axis_select_part": "RESTRICT_SELECT_OFF",
         "object.medial_axis_separate_parts": "OUTLINER_COLLECTION",
     },

@@ -2,8 +2,9 @@
 """Sliders of the panel run over what can go; what is stored, keyed and kept in files is the length."""
 
 import bpy
+import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, result_of, select
+from scene import addon, compute, ellipsoid, positions, result_of, select
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500, "form": "CLEAN"}
 
@@ -72,6 +73,38 @@ def test_files_keep_lengths_and_ranges(result, tmp_path):
     assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
     panel().erode_share = 0.25
     assert "no longer in memory" in panel().note
+
+
+def test_simplify_goes_to_the_gap_of_a_noisy_body(tmp_path):
+    source = ellipsoid(segments=5)
+    noisy = positions(source.data)
+    noisy += np.random.default_rng(1).normal(scale=0.014, size=noisy.shape)
+    source.data.vertices.foreach_set("co", noisy.astype(np.float32).ravel())
+    compute(sampling="VERTICES", prepare="OFF", form="CLEAN")
+    select(source)
+    result, name = result_of(source), source.name
+    gap, whole = result["ma_simplify_gap"], facets(result)
+    assert bpy.ops.object.medial_axis_simplify_to_gap() == {"FINISHED"}
+    assert panel().simplify == pytest.approx(gap) and result["ma_simplify"] == pytest.approx(gap)
+    assert 0.3 * whole < facets(result) < whole
+    panel().simplify = 0.0
+    assert facets(result) == whole
+    path = str(tmp_path / "kept.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    select(bpy.data.objects[name])
+    assert bpy.ops.object.medial_axis_simplify_to_gap.poll()
+
+
+def test_nothing_is_suggested_without_a_gap(result):
+    assert "ma_simplify_gap" not in result
+    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    result["ma_simplify_gap"] = "as no version writes it"
+    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    result["ma_simplify_gap"] = 1.0
+    assert bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    panel().form = "CURVE"
+    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
 
 
 def test_a_published_axis_has_the_range_of_rho_only(result):

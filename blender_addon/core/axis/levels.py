@@ -18,6 +18,7 @@ from ..machine.cache import CACHE
 from ..settings import Form, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
+from .gap import gap_of
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
 from .rho_range import rho_range
 from .slider_range import ranges_of
@@ -92,6 +93,7 @@ def extract_level(
             place=_placing(level, hierarchy, settings),
             crumb=crumb_sizes(level, samples),
             ranges=samples.levels.kept("ranges", hierarchy, ranges_of),
+            gap=samples.levels.kept("gap", hierarchy, gap_of),
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
         rho_range=rho_range(samples, settings, hierarchy),

@@ -46,6 +46,8 @@ class LevelValues:
         None where it is not known.
     ranges : dict of SliderRange
         The ranges of Simplify, Erode and Limbs, by the names of the settings; empty where they are not known.
+    gap : float or None
+        The value of Simplify in a clear gap between thin sheets and others; None where there is none (`gap.py`).
     loops_left_out : int
         The number of loops that the samples show, and that a curve with less Detail does not have.
     """
@@ -59,6 +61,7 @@ class LevelValues:
     place: NDArray[np.int32]
     crumb: NDArray[np.float32] | None = None
     ranges: dict[str, SliderRange] = field(default_factory=dict)
+    gap: float | None = None
     loops_left_out: int = 0
 
     @property

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The value of Simplify that the sheets of a model suggest: in the gap between thin ones, as of noise, and others."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .directions import facet_areas
+from .medial_axis import IN_CORNER, ON_CREASE
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_CLEAR = 3.0  # a gap is clear where what stays is so many times as thick as what goes
+_SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes
+
+
+def gap_of(hierarchy: Any) -> float | None:
+    """Return the length of `length_in_gap` of the sheets of a hierarchy, in percent of the diagonal.
+
+    Parameters
+    ----------
+    hierarchy : _medial.Hierarchy
+    """
+    offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
+    area = facet_areas(hierarchy.vertices, offsets, corners) * (hierarchy.facet_spacings > 1.0)
+    is_meant = np.zeros(len(area), np.bool_)
+    if len(hierarchy.place) and len(area):
+        on_edge = np.isin(hierarchy.place, (ON_CREASE, IN_CORNER))[corners]
+        is_meant = np.logical_or.reduceat(on_edge, offsets[:-1])
+    return length_in_gap(100 * hierarchy.facet_sheet.astype(np.float64), area, is_meant)
+
+
+def length_in_gap(
+    values: NDArray[np.float64], weights: NDArray[np.float64], is_meant: NDArray[np.bool_]
+) -> float | None:
+    """Return the middle, by ratio, of the widest gap between small values and others; None where no gap is clear.
+
+    At a clear gap no value lies within a factor of three. What is below weighs enough to be seen and no more than half,
+    and nothing of it is meant.
+
+    Parameters
+    ----------
+    values : (n,) float64
+        Those that are 0 or infinite do not count.
+    weights : (n,) float64
+    is_meant : (n,) bool
+        What is no noise, however small: sheets that lead into sharp edges of the faces.
+    """
+    goes = (values > 0.0) & np.isfinite(values) & (weights > 0.0)
+    found, which = np.unique(values[goes], return_inverse=True)
+    if len(found) < 2:
+        return None
+    gone = np.cumsum(np.bincount(which.ravel(), weights[goes]))[:-1]
+    share = gone / weights[goes].sum()
+    may_go = found[:-1] < values[goes & is_meant].min(initial=math.inf)
+    ratio = found[1:] / found[:-1]
+    ratio[~may_go | (share < _SEEN) | (share > _HALF)] = 0.0
+    below = int(ratio.argmax())
+    return math.sqrt(found[below] * found[below + 1]) if ratio[below] >= _CLEAR else None
