@@ -2,6 +2,7 @@
 #include "contact/inscribed_balls.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -32,7 +33,8 @@ constexpr int kMostInVain = 48;    // leaves of the tree of faces
 constexpr double kSmaller = 0.99;  // a ball that is searched to the end, which few faces touch
 constexpr double kNothing = 1e-3;  // a ball of so many roundings is none
 // In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
-// a tube it then needs no search for this wall.
+// a tube it then needs no search for this wall. Both walls of a shell may be in one run, so the one
+// before is of those that look about the same way: as the first place of the run, or against it.
 constexpr int64_t kRunOfPlaces = 64;
 
 struct Place {
@@ -234,9 +236,7 @@ InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, con
   InscribedBalls result{std::vector<double>(count, HUGE_VAL), std::vector<double>(count, HUGE_VAL)};
   const Shrinking shrinking(faces);
   const auto order = order_of(faces, places.triangle);
-  const auto measure = [&](int32_t i, InnerBall& last) {
-    const Place x = place_of(faces, places, i);
-    if (x.normal == Vec3{}) return;
+  const auto measure = [&](const Place& x, int32_t i, InnerBall& last) {
     last = shrinking.ball(x, last);
     if (last.foot.triangle < 0) return;
     result.diameter[i] = 2 * last.radius;
@@ -247,8 +247,14 @@ InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, con
   parallel_chunks(
       static_cast<int64_t>(count), run,
       [&](int64_t begin, int64_t end, int) {
-        InnerBall last;
-        for (int64_t i = begin; i < end; ++i) measure(order[i], last);
+        Vec3 first;
+        std::array<InnerBall, 2> last;
+        for (int64_t i = begin; i < end; ++i) {
+          const Place x = place_of(faces, places, order[i]);
+          if (x.normal == Vec3{}) continue;
+          if (first == Vec3{}) first = x.normal;
+          measure(x, order[i], last[dot(first, x.normal) < 0 ? 1 : 0]);
+        }
       },
       kRunOfPlaces);
   return result;
