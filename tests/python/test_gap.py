@@ -78,7 +78,7 @@ def test_a_noisy_ellipsoid_keeps_its_one_sheet(rough):
 
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (4.0, 4.0, 0.5)])
 def test_sheets_into_edges_are_no_noise(scale):
-    """Those of a plate are far thinner than its middle."""
+    """The sheets into the edges of a plate are far thinner than its middle."""
     points, triangles = box()
     settings = Settings(sampling=SamplingMode.SURFACE, samples=2000)
     axis = compute(np.asarray(points) * scale, triangles, settings).axis

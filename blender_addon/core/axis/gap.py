@@ -45,10 +45,10 @@ def length_in_gap(
     Parameters
     ----------
     values : (n,) float64
-        Those that are 0 or infinite do not count.
+        Values that are 0 or infinite do not count.
     weights : (n,) float64
     is_meant : (n,) bool
-        What is no noise, however small: sheets that lead into sharp edges of the faces.
+        Whether a value is no noise, however small it is, as of sheets that lead into sharp edges of the faces.
     """
     goes = (values > 0.0) & np.isfinite(values) & (weights > 0.0)
     found, which = np.unique(values[goes], return_inverse=True)
