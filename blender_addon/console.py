@@ -97,6 +97,10 @@ def _shapes(report: dict[str, Any]) -> str:
     return "balls" if report["settings"]["shapes"] == "balls" else "capsules"
 
 
+def _length(value: float | None) -> str:
+    return "unknown" if value is None else f"{value:.4g}"
+
+
 def _said(report: dict[str, Any]) -> str:
     """The content of an output, in a few words."""
     if "facets" in report:
@@ -116,6 +120,10 @@ def _said(report: dict[str, Any]) -> str:
         cavities = "1 cavity" if report["cavities"] == 1 else f"{report['cavities']:,} cavities"
         left = percent(report["volume"] / report["volume_of_solid"])
         return f"{cavities}, {left} of the volume left, wall at least {report['least_wall']:.4g}"
+    if "farthest_move" in report:
+        before, after = (_length(report[name]) for name in ("minimum_before", "minimum"))
+        below = f", {percent(report['share_below'])} still thinner" if report["patches"] else ""
+        return f"least thickness {before} before, {after} now{below}"
     unit = f" {report['unit']}" if report["unit"] else ""
     if report["minimum"] is None:
         return "no two walls face each other"

@@ -43,6 +43,19 @@ def check_thickenable(source: bpy.types.Object) -> None:
         )
 
 
+def reserve_moves(source: bpy.types.Object) -> None:
+    """Give a mesh the attribute of its moves where it has none, so that nothing else fails after its faces are divided.
+
+    Raises
+    ------
+    InvalidInputError
+        Something else has its name.
+    """
+    if thicken_modifier(source) is None:
+        none = np.zeros(3 * len(source.data.vertices), np.float32)
+        set_attribute(source.data, MOVES, "FLOAT_VECTOR", "POINT", none)
+
+
 def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
     """Give a source the moves, on top of those that its modifier applies already.
 

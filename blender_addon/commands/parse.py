@@ -22,6 +22,7 @@ from .items import inside_blender
 # The modules by the first word of the command; only the one that is used is imported.
 _COMMANDS = {
     "thickness": "thickness",
+    "thicken": "thicken",
     "skeleton": "skeleton",
     "balls": "balls",
     "midsurface": "mid_surface",

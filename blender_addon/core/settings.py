@@ -779,6 +779,11 @@ class ThickenSettings(Options):
         soft_maximum=1000.0,
         unit="length",
     )
+    subdivide: bool = switch(
+        "Subdivide",
+        "Divide large faces that are thin in one part only, so that their vertices can rise where the wall is thin",
+        default=False,
+    )
 
 
 THICKEN_OPTIONS = options_of(ThickenSettings)

@@ -83,9 +83,15 @@ def _draw_found(context, layout, carrier):
 def _draw_thicken(context, layout):
     if not draws_buttons(layout):
         return
-    button = layout.operator("object.medial_axis_thicken", icon="MOD_SOLIDIFY")
-    copy_settings(context.scene.medial_axis, button)
-    button.limit = context.scene.medial_axis_thickness.limit
+    column, operator = layout.column(align=True), "object.medial_axis_thicken"
+    for text, icon, divides in (
+        ("Thicken to the Limit", "MOD_SOLIDIFY", False),
+        ("Subdivide and Thicken", "MOD_SUBSURF", True),
+    ):
+        button = column.operator(operator, text=say(text), icon=icon, translate=False)
+        copy_settings(context.scene.medial_axis, button)
+        button.limit = context.scene.medial_axis_thickness.limit
+        button.subdivide = divides
 
 
 def _draw_patches(context, column, carrier):

@@ -107,6 +107,79 @@ def test_a_group_of_the_artist_that_has_our_name_stays():
     assert thing.vertex_groups[1].weight(0) == 1.0
 
 
+def ramp():
+    """A plate of six faces that gets thicker along its length, from 0.02 to 0.1, with weights from 0.25 to 0.75."""
+    thing = plate()
+    for vertex in thing.data.vertices:
+        vertex.co.z *= 3.0 + 2.0 * vertex.co.x
+    group = thing.vertex_groups.new(name="Along")
+    for vertex in thing.data.vertices:
+        group.add([vertex.index], 0.25 * vertex.co.x + 0.5, "REPLACE")
+    thing.data.update()
+    return thing
+
+
+def test_faces_that_are_thin_in_part_are_subdivided_when_asked():
+    thing = ramp()
+    mesh = thing.data
+    refuse("thin in part; Subdivide divides them", "medial_axis_thicken", limit=0.05)
+    assert len(mesh.polygons) == 6 and not thing.modifiers
+    bpy.ops.object.medial_axis_thicken(limit=0.05, subdivide=True, samples=3000)
+    assert thing.data == mesh and 300 < len(mesh.polygons) < 10_000
+    assert [modifier.name for modifier in thing.modifiers] == ["Medial Axis Thicken"]
+    moved, own = positions(thing), np.array([vertex.co[:] for vertex in mesh.vertices])
+    np.testing.assert_allclose(np.abs(own[:, 2]), 0.01 * (3.0 + 2.0 * own[:, 0]), rtol=1e-5)
+    thickness = 2.0 * np.abs(moved[:, 2])
+    # A place on the rim has the thickness of the wall beside it, which is thicker by the taper of a piece.
+    inside = np.abs(own[:, :2]).max(axis=1) < 0.99
+    assert thickness[inside].min() > 0.05 * 0.999 and thickness.min() > 0.05 * 0.94
+    thick = own[:, 0] > 0.8
+    assert thick.any() and np.array_equal(moved[thick], own[thick].astype(np.float32))
+
+
+def test_subdivision_keeps_uvs_and_weights():
+    thing = ramp()
+    bpy.ops.object.medial_axis_thicken(limit=0.05, subdivide=True, samples=3000)
+    mesh = thing.data
+    weights = [thing.vertex_groups["Along"].weight(v) for v in range(len(mesh.vertices))]
+    x = np.array([vertex.co.x for vertex in mesh.vertices])
+    np.testing.assert_allclose(weights, 0.25 * x + 0.5, atol=1e-5)
+    top = [face for face in mesh.polygons if face.normal.z > 0.5]
+    assert len(top) > 100
+    corners = [corner for face in top for corner in face.loop_indices]
+    uv = np.array([mesh.uv_layers[0].data[corner].uv[:] for corner in corners])
+    at = np.array([mesh.vertices[mesh.loops[corner].vertex_index].co[:2] for corner in corners])
+    ones = np.ones((len(at), 1))
+    _, residual, _, _ = np.linalg.lstsq(np.hstack((at, ones)), uv, rcond=None)
+    assert residual.max() < 1e-6 and np.ptp(uv[:, 0]) > 0.2
+
+
+def test_selected_faces_of_a_subdivision():
+    thing = ramp()
+    for face in thing.data.polygons:
+        face.select = face.normal.z > 0.5
+    bpy.ops.object.medial_axis_thicken(limit=0.05, subdivide=True, samples=3000, moving="SELECTED")
+    moved, own = positions(thing), np.array([vertex.co[:] for vertex in thing.data.vertices])
+    below = own[:, 2] < 0.0
+    np.testing.assert_allclose(moved[below], own[below], atol=1e-7)
+    assert moved[:, 2].max() > own[:, 2].max() * 0.999 and (moved[~below] != own[~below]).any()
+
+
+def test_a_mesh_that_needs_no_subdivision_keeps_its_faces():
+    thing = plate()
+    bpy.ops.object.medial_axis_thicken(limit=LIMIT, subdivide=True)
+    assert len(thing.data.polygons) == 6
+    np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), LIMIT / 2, rtol=2e-4)
+
+
+def test_nothing_is_subdivided_where_a_name_is_taken():
+    thing = ramp()
+    thing.vertex_groups.new(name="ma_thicken")
+    taken = "Expected the name 'ma_thicken' to be free"
+    refuse(taken, "medial_axis_thicken", limit=0.05, subdivide=True, samples=3000)
+    assert len(thing.data.polygons) == 6 and not thing.modifiers
+
+
 def open_mesh():
     bpy.ops.mesh.primitive_plane_add()
 

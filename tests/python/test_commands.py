@@ -141,6 +141,7 @@ def test_command_line(command, tmp_path, monkeypatch, program):  # noqa: F811 - 
     done = program(*words)
     may_end = {
         "thickness": (0, 5),
+        "thicken": (0, 5),
         "midsurface": (0, 3),
         "hollow": (0, 3),
     }  # thin parts; an ellipsoid has no thin walls, and is less than 4 thick

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Thin walls moved apart to a limit: solids whose thickness afterwards is known, and those that must not change."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.shape import Shape
+from medial_axis.core.samples.triangles import unit_normals
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -18,13 +21,16 @@ from medial_axis.core.settings import (
 from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thicken import thicken
 from medial_axis.core.solid.thickness import measure_thickness
-from support import thin_solids
+from medial_axis.core.solid.thin_in_part import subdivided
+from support import thin_solids, topology
+from support.meshes import read, write_off
 from support.thick_meshes import block, ellipsoid, shell
 from support.thin_solids import turned, union
 
 pytestmark = pytest.mark.oracle
 
 LIMIT = 0.05
+FEW = Settings(samples=3_000)
 
 
 def shape_of(mesh):
@@ -144,7 +150,7 @@ def test_walls_of_a_wide_slot_get_the_limit():
 
 def test_faces_that_are_thin_in_part_ask_for_a_subdivision():
     mesh = thin_solids.wedge(10.0).mesh
-    with pytest.raises(InvalidInputError, match="thin in part; subdivide them"):
+    with pytest.raises(InvalidInputError, match="thin in part; Subdivide divides them"):
         thickened(mesh)
     found = thickened(finer(mesh, 0.03))
     assert not found.left.patches
@@ -152,6 +158,77 @@ def test_faces_that_are_thin_in_part_ask_for_a_subdivision():
     thin = before.of_triangles < LIMIT
     after = measure_thickness(found.after.shape, Settings(), ThicknessSettings(edges=Edges.GREY))
     assert (after.of_triangles[thin] > LIMIT * 0.999).mean() > 0.95
+
+
+def ramp():
+    """Twelve triangles of a plate that gets thicker along its length, from 0.02 to 0.1."""
+    points, triangles = block(2.0, 0.5, 0.02)
+    points = points - points.min(axis=0)
+    points[:, 2] *= 1.0 + 2.0 * points[:, 0]
+    return points, triangles
+
+
+def divided(mesh, **wanted):
+    settings = ThickenSettings(limit=LIMIT, subdivide=True, **wanted)
+    return thicken(shape_of(mesh), FEW, settings)
+
+
+def test_subdivide_divides_what_is_thin_in_part():
+    mesh = turned(ramp(), 4)
+    found = divided(mesh)
+    assert found.left.share < 0.002 and found.after.minimum > 0.95 * LIMIT
+    shape = found.before.shape
+    np.testing.assert_array_equal(shape.points[:8], mesh[0])
+    assert topology.volume(shape.points, shape.triangles) == pytest.approx(topology.volume(*mesh))
+    assert topology.euler(shape.triangles) == 2 and topology.is_oriented(shape.triangles)
+    assert 500 < len(shape.triangles) < 10_000 and len(found.moves) == len(shape.points)
+    thin = found.before.of_vertices < 0.8 * LIMIT
+    assert np.median(found.after.of_vertices[thin]) < 1.05 * LIMIT
+    thick = found.before.of_vertices > 1.5 * LIMIT
+    assert thick.any() and not found.moves[thick].any()
+
+
+def test_subdivide_leaves_other_faces():
+    """A plate beside the ramp keeps its faces, and a plate alone all of them."""
+    plate, other = thin_solids.plate(0.01).mesh, ramp()
+    shape, face = subdivided(shape_of(plate), FEW, LIMIT)
+    np.testing.assert_array_equal(shape.points, plate[0])
+    np.testing.assert_array_equal(face, np.arange(len(plate[1])))
+    both = (
+        np.concatenate((plate[0] + (9.0, 0.0, 0.0), other[0])),
+        np.concatenate((plate[1], other[1] + len(plate[0]))),
+    )
+    shape, face = subdivided(shape_of(both), FEW, LIMIT)
+    assert (face < len(plate[1])).sum() == len(plate[1]) < len(face) / 10
+
+
+def test_sharp_edges_and_the_choice_of_faces_go_along():
+    points, triangles = ramp()
+    edge = np.sort(triangles[:1, :2], axis=1)
+    shape, face = subdivided(replace(shape_of((points, triangles)), sharp_edges=edge), FEW, LIMIT)
+    ends = shape.points[shape.sharp_edges]
+    whole = np.linalg.norm(points[edge[0, 1]] - points[edge[0, 0]])
+    assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() == pytest.approx(whole)
+    normals = (unit_normals(p[t])[0] for p, t in ((shape.points, shape.triangles), ramp()))
+    made, given = normals
+    np.testing.assert_allclose(made, given[face], atol=1e-9)
+
+
+def test_files_and_figures(tmp_path, capsys):
+    source = write_off(tmp_path / "ramp.off", ramp())
+    words = ["thicken", source, str(tmp_path / "thick.ply"), "--limit", "0.05", "--samples", "3000"]
+    assert cli.main([*words, "--quiet"]) == cli.INPUT
+    assert "thin in part; Subdivide divides them" in capsys.readouterr().err
+    ended = cli.main([*words, "--subdivide"])
+    assert "least thickness 0.02" in capsys.readouterr().out
+    said = json.loads((tmp_path / "thick.ply.json").read_text(encoding="utf-8"))
+    assert ended == (cli.THIN if said["patches"] else cli.DONE)
+    assert said["minimum"] > 0.95 * LIMIT and said["share_below"] < 0.002
+    assert said["settings"]["subdivide"] and "moving" not in said["settings"]
+    points, triangles = read(tmp_path / "thick.ply")
+    assert len(triangles) == said["faces"] > 500
+    thin = points[:, 0] < 0.2
+    assert np.ptp(points[thin][:, 2]) == pytest.approx(LIMIT, rel=0.05)
 
 
 def test_open_meshes_and_no_limit_are_refused():

@@ -17,9 +17,9 @@ _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
 T = TypeVar("T")
 
 
-def add_options(parser: argparse._ArgumentGroup, kind: type) -> None:
+def add_options(parser: argparse._ArgumentGroup, kind: type, without: tuple[str, ...] = ()) -> None:
     """Add an argument `--name` for every option of a kind of settings; an option that is not given has its default."""
-    _add(parser, options_of(kind))
+    _add(parser, {n: option for n, option in options_of(kind).items() if n not in without})
 
 
 def add_thickness(parser: argparse._ArgumentGroup) -> None:

@@ -64,7 +64,8 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     normals, radii = planes.normals_at_corners(), planes.radii_at_corners(straight)
     ends = rims(sheets, straight, normals, radii, walls)
     rows.add(*ends.planes())
-    vertices = ends.without_ways_back(rows.solved(straight))
+    corners = ends.without_lost_corners(straight, rows.solved(straight), walls)
+    vertices = ends.without_ways_back(corners)
     stays = planes.shared() | ends.touched(len(vertices))
     vertices = unfolded(vertices, sheets.triangles, normals, stays)
     return CarriedSheets(

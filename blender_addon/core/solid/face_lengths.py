@@ -6,6 +6,7 @@ Nothing is sampled and no axis is computed. The lengths are exact between flat f
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -130,7 +131,8 @@ def lengths_by_faces(
         edges, convex, corners = balls_in.creases()
     kinds = np.where(convex, _CONVEX, _REFLEX).astype(np.int8)
     coarse = coarse_faces(shape.points, triangles, edges, kinds)
-    fine = _fine_enough(coarse, shape, settings)
+    longest = longest_piece(shape, settings)
+    fine = coarse if math.isinf(longest) else cut_faces(coarse, longest)
     at_edge = np.zeros(len(fine.points), bool)
     at_edge[_ends(fine, _CONVEX)] = True
     at_edge[corners] = True
@@ -165,18 +167,21 @@ def first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
     return first[place]
 
 
-def _fine_enough(coarse: FineFaces, shape: Shape, settings: Settings) -> FineFaces:
-    """The faces, cut if they are too coarse to show their thickness at the corners."""
+def longest_piece(shape: Shape, settings: Settings) -> float:
+    """How long the edges of the pieces are at most into which faces are cut; infinite where none is cut.
+
+    They are cut where they are too coarse to show their thickness at the corners.
+    """
     if settings.sampling is SamplingMode.VERTICES:
-        return coarse
+        return math.inf
     spacing = first_pass(shape, settings).spacing
     if settings.sampling is SamplingMode.AUTOMATIC and shape.of_samples:
-        corners = coarse.points[coarse.triangles]
+        corners = shape.points[shape.triangles]
         longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
         areas = unit_normals(corners)[1]
         if areas[longest > _COARSE * spacing].sum() <= _SOME * areas.sum():
-            return coarse
-    return cut_faces(coarse, _FINE * spacing)
+            return math.inf
+    return _FINE * spacing
 
 
 def _ends(fine: FineFaces, kind: int) -> NDArray[np.int32]:

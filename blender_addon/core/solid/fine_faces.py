@@ -76,9 +76,9 @@ def coarse_faces(
     return FineFaces(points, triangles, np.arange(len(triangles), dtype=np.int32), kinds)
 
 
-def cut_faces(found: FineFaces, longest: float) -> FineFaces:
-    """Halve edges that are longer than a length until there are none."""
-    while (cut := _halved(found, longest)) is not None:
+def cut_faces(found: FineFaces, longest: float, some: NDArray[np.bool_] | None = None) -> FineFaces:
+    """Halve edges that are longer than a length until there are none, or only around (m,) some of the faces."""
+    while (cut := _halved(found, longest, some)) is not None:
         found = cut
     return found
 
@@ -90,16 +90,19 @@ def _keys(triangles: NDArray[np.int32], count: int) -> NDArray[np.int64]:
     return np.minimum(tails, heads) * count + np.maximum(tails, heads)
 
 
-def _halved(found: FineFaces, longest: float) -> FineFaces | None:
+def _halved(found: FineFaces, longest: float, some: NDArray[np.bool_] | None) -> FineFaces | None:
     points, triangles = found.points, found.triangles
     ways = points[np.roll(triangles, -1, axis=1)] - points[triangles]
     lengths = np.sqrt(dot(ways, ways))
-    if not (lengths > longest).any():
+    too_long = lengths > longest
+    if some is not None:
+        too_long &= some[found.faces][:, None]
+    if not too_long.any():
         return None
     keys, of_sides = np.unique(_keys(triangles, len(points)), return_inverse=True)
     of_sides = of_sides.reshape(-1, 3)
     long = np.zeros(len(keys), bool)
-    long[of_sides[lengths > longest]] = True
+    long[of_sides[too_long]] = True
     number = np.where(long, len(points) + np.cumsum(long) - 1, -1)
     ends = np.divmod(keys[long], len(points))
     middles = (points[ends[0]] + points[ends[1]]) / 2.0

@@ -31,6 +31,7 @@ _STEPS = (
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
 _SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least
+_LOST = 0.1  # in radii: so near to the wall of an edge is a place beside the corner of two walls
 _SHORT = 1e-6  # in radii: a shorter edge has no direction
 _NOTHING, _AT_WALL, _CORNER = range(3)  # what an edge ends at: no wall, a wall ahead, a reflex edge
 _LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind tell nothing
@@ -95,6 +96,35 @@ class Rims:
         """(v,) the vertices at rims, given the number of all."""
         found = np.zeros(count, bool)
         found[self.edges.ends] = True
+        return found
+
+    def without_lost_corners(
+        self, straight: NDArray[np.float64], vertices: NDArray[np.float64], walls: Walls
+    ) -> NDArray[np.float64]:
+        """The vertices, but where they were if the planes of two walls meet far away and a wall is not there.
+
+        Between a hole and a rim that are nearer to each other than the plate is thick, the sheet ends. The walls of
+        both then face each other nearly, and their planes meet where the hole is no more.
+        """
+        reach = np.zeros(len(vertices))
+        np.maximum.at(reach, self.edges.ends, _REACH * self.edges.radius[:, None])
+        way = vertices - straight
+        far = (reach > 0.0) & (dot(way, way) > reach * reach)
+        rows, end = np.nonzero(far[self.edges.ends] & (self.kind == _AT_WALL)[:, None])
+        if not len(rows):
+            return vertices
+        vertex, normals = self.edges.ends[rows, end], self.normals[rows]
+        along = self.edges.along[rows] - dot(self.edges.along[rows], normals)[:, None] * normals
+        step = np.where(end == 0, 1.0, -1.0) * self.edges.radius[rows]
+        with own_errors() as module:
+            away = module.surface_distances(
+                np.ascontiguousarray(vertices[vertex] + step[:, None] * along),
+                walls.points,
+                walls.triangles,
+            )
+        lost = vertex[np.asarray(away) > _LOST * self.edges.radius[rows]]
+        found = vertices.copy()
+        found[lost] = straight[lost]
         return found
 
     def without_ways_back(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:

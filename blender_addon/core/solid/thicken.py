@@ -29,18 +29,20 @@ from .face_lengths import are_enough, first_rows
 from .fans import fans_of
 from .measurement import Measurement
 from .thickness import measure_thickness
+from .thin_in_part import subdivided, thin_in_part
 from .thin_parts import ThinParts, find_thin_parts
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
+    from .face_lengths import MeasuredFaces
 
 _ROUNDS = 8  # at most; two or three suffice where walls are not much curved
 _HALVES = 2  # so many rounds give each of two walls half
 _OF_GAP = 0.45  # the share of a gap that a wall may take: the opposite wall takes as much
 _BEYOND = 1e-4  # walls gain this share of the limit more, so that few rounds leave none below it
-_SOME = 0.02  # a smaller part of a face does not count
 _FARTHEST = 3.0  # times the largest gain: no vertex moves farther
 _CROSSED = (
     "walls would run into each other where they gained all that they lack, so they gained less"
@@ -54,7 +56,7 @@ class Thickened:
     Parameters
     ----------
     moves : (v, 3) float64
-        How far each vertex of the shape moves.
+        How far each vertex of `before.shape` moves.
     before, after : Measurement
     left : ThinParts
         What is thinner than the limit afterwards.
@@ -71,6 +73,11 @@ class Thickened:
     gap: float
     warnings: tuple[str, ...]
     seconds: float
+
+    @property
+    def chosen(self) -> ChosenSamples | MeasuredFaces:
+        """How the shape was measured before."""
+        return self.before.chosen
 
 
 def thicken(
@@ -89,6 +96,7 @@ def thicken(
     settings : Settings
         Its options of sampling decide where the thickness is measured.
     wanted : ThickenSettings
+        With `subdivide` the moves are those of the divided shape, which is that of `Thickened.before`.
     selected : (m,) bool, optional
         The triangles that may move, where `wanted.moving` is SELECTED.
     progress : Progress, optional
@@ -105,6 +113,9 @@ def thicken(
         raise InvalidInputError("Expected a limit above 0, found 0; set Limit to the least wall")
     shape = outward_shape(shape)
     _check_faces(shape, settings, wanted)
+    if wanted.subdivide:
+        shape, face = subdivided(shape, settings, wanted.limit)
+        selected = None if selected is None else selected[face]
     progress.begin_section(0.0, 1.0 / (_ROUNDS + 2))
 
     def measured(shape: Shape, edges: Edges) -> Measurement:
@@ -167,31 +178,12 @@ def _check_faces(shape: Shape, settings: Settings, wanted: ThickenSettings) -> N
 
 def _check_size(found: Measurement, limit: float) -> None:
     """Raise InvalidInputError where a thin place lies in a large face, whose vertices are elsewhere."""
-    count = _thin_in_part(found, limit)
+    count = int(thin_in_part(found, limit).sum())
     if count:
         raise InvalidInputError(
             f"Expected faces that are thin as a whole or not at all, found {count:,} large ones that are thin in part; "
-            "subdivide them, so that their vertices can rise where the wall is thin"
+            "Subdivide divides them, so that their vertices can rise where the wall is thin"
         )
-
-
-def _thin_in_part(found: Measurement, limit: float) -> int:
-    """The number of faces that were cut for the measurement, and are thinner than the limit in one part of their area
-    and not in another."""
-    face = found.surface.face_of_triangles
-    if face is None or found.triangles is found.shape.triangles:
-        return 0
-    lengths = found.of_triangles
-    thin = lengths < limit - found.slack
-    area, part, rest = (
-        np.bincount(face, weights, minlength=len(found.shape.triangles))
-        for weights in (
-            found.areas,
-            found.areas * thin,
-            found.areas * (np.isfinite(lengths) & ~thin),
-        )
-    )
-    return int(((part > _SOME * area) & (rest > _SOME * area)).sum())
 
 
 def _missing(found: Measurement, limit: float) -> float:
