@@ -223,7 +223,7 @@ def test_files_and_figures(tmp_path, capsys):
     assert "least thickness 0.02" in capsys.readouterr().out
     said = json.loads((tmp_path / "thick.ply.json").read_text(encoding="utf-8"))
     assert ended == (cli.THIN if said["patches"] else cli.DONE)
-    assert said["minimum"] > 0.95 * LIMIT and said["share_below"] < 0.002
+    assert said["minimum"] > 0.95 * LIMIT and said["share_below"] < 0.02
     assert said["settings"]["subdivide"] and "moving" not in said["settings"]
     points, triangles = read(tmp_path / "thick.ply")
     assert len(triangles) == said["faces"] > 500
