@@ -173,6 +173,7 @@ def divided(mesh, **wanted):
     return thicken(shape_of(mesh), FEW, settings)
 
 
+@pytest.mark.turn
 def test_subdivide_divides_what_is_thin_in_part():
     mesh = turned(ramp(), 4)
     found = divided(mesh)
@@ -214,6 +215,7 @@ def test_sharp_edges_and_the_choice_of_faces_go_along():
     np.testing.assert_allclose(made, given[face], atol=1e-9)
 
 
+@pytest.mark.turn
 def test_files_and_figures(tmp_path, capsys):
     source = write_off(tmp_path / "ramp.off", ramp())
     words = ["thicken", source, str(tmp_path / "thick.ply"), "--limit", "0.05", "--samples", "3000"]
@@ -228,7 +230,9 @@ def test_files_and_figures(tmp_path, capsys):
     points, triangles = read(tmp_path / "thick.ply")
     assert len(triangles) == said["faces"] > 500
     thin = points[:, 0] < 0.2
-    assert np.ptp(points[thin][:, 2]) == pytest.approx(LIMIT, rel=0.05)
+    assert (
+        LIMIT < np.ptp(points[thin][:, 2]) < 1.3 * LIMIT
+    )  # a wall in the plane of its rim gains more
 
 
 def test_open_meshes_and_no_limit_are_refused():
