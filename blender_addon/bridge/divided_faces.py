@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from ..core.samples.shape import Shape
 
-_CHOSEN = "ma_divided"  # a layer of faces, while they are divided
+# Layers of faces, while they are divided. Blender 5.2 forgets the selection of faces whose vertices are not selected.
+_CHOSEN, _SELECTED = "ma_divided", "ma_selected"
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,19 +112,32 @@ def divide(mesh: bpy.types.Mesh, step: Division) -> None:
     grid = bmesh.new()
     try:
         grid.from_mesh(mesh)
-        layer = grid.faces.layers.int.new(_CHOSEN)
-        for face, chosen in zip(grid.faces, step.faces.tolist(), strict=True):
-            face[layer] = chosen
+        selected = np.zeros(len(mesh.polygons), bool)
+        mesh.polygons.foreach_get("select", selected)
+        _mark(grid, _SELECTED, selected)
+        _mark(grid, _CHOSEN, step.faces)
+        layer = grid.faces.layers.int[_CHOSEN]
         rest = Matrix(step.rest.tolist())
         _cut_corners(grid, layer)
         while long := _long_edges(grid, layer, step.longest, rest):
             bmesh.ops.subdivide_edges(grid, edges=long, cuts=1, use_grid_fill=True)
             _cut_corners(grid, layer)
-        grid.faces.layers.int.remove(layer)
+        picked = grid.faces.layers.int[_SELECTED]
+        selection = [face[picked] for face in grid.faces]
+        for name in (_CHOSEN, _SELECTED):
+            grid.faces.layers.int.remove(grid.faces.layers.int[name])
         grid.to_mesh(mesh)
+        mesh.polygons.foreach_set("select", selection)
     finally:
         grid.free()
     mesh.update()
+
+
+def _mark(grid: bmesh.types.BMesh, name: str, marked: NDArray[np.bool_]) -> None:
+    """Give faces a layer, of which the pieces of a face have the value of the face."""
+    layer = grid.faces.layers.int.new(name)
+    for face, value in zip(grid.faces, marked.tolist(), strict=True):
+        face[layer] = value
 
 
 def _cut_corners(grid: bmesh.types.BMesh, layer: bmesh.types.BMLayerItem) -> None:
