@@ -638,6 +638,9 @@ def test_under_the_curve_is_the_way_to_one_of_few_branches():
     panel, shown = bpy.context.scene.medial_axis, []
 
     class Layout:
+        def row(self, **_):
+            return self
+
         def prop(self, _owner, name, **_):
             shown.append(name)
 
