@@ -14,7 +14,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.errors import InvalidInputError
-from .mesh_arrays import read_loop_triangles
+from .mesh_arrays import read_loop_triangles, selected_faces
 from .read_object import read_object, split_transform
 
 if TYPE_CHECKING:
@@ -112,9 +112,7 @@ def divide(mesh: bpy.types.Mesh, step: Division) -> None:
     grid = bmesh.new()
     try:
         grid.from_mesh(mesh)
-        selected = np.zeros(len(mesh.polygons), bool)
-        mesh.polygons.foreach_get("select", selected)
-        _mark(grid, _SELECTED, selected)
+        _mark(grid, _SELECTED, selected_faces(mesh))
         _mark(grid, _CHOSEN, step.faces)
         layer = grid.faces.layers.int[_CHOSEN]
         rest = Matrix(step.rest.tolist())

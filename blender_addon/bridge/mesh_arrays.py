@@ -83,6 +83,13 @@ def _read_unsigned(
     return values.view(np.int32)
 
 
+def selected_faces(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    """(p,) which faces are selected in edit mode."""
+    selected = np.zeros(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("select", selected)
+    return selected
+
+
 def select_faces(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
     """Select the faces that (m,) bool marks and nothing else, with their edges and vertices.
 

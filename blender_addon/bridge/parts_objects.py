@@ -14,7 +14,7 @@ from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from .attributes import PART, RADIUS, Attribute
 from .colours import END, START, remember_colours
-from .mesh_arrays import select_faces
+from .mesh_arrays import select_faces, selected_faces
 from .output_object import SOURCE, VERSION, is_gone
 from .read_axis import read_axis
 from .write_mesh import new_mesh
@@ -52,9 +52,7 @@ def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
     mesh = thing.data
     wanted = _parts(mesh) == number
     if extend:
-        selected = np.empty(len(mesh.polygons), bool)
-        mesh.polygons.foreach_get("select", selected)
-        wanted |= selected
+        wanted |= selected_faces(mesh)
     select_faces(mesh, wanted)
     return int(np.count_nonzero(_parts(mesh) == number))
 

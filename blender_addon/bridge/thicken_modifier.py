@@ -13,7 +13,7 @@ from ..core.errors import InvalidInputError
 from ..core.small_matrices import inverse, times
 from .attributes import as_float32, read_vectors, set_attribute
 from .evaluated_rows import keeps_rows
-from .mesh_arrays import read_loop_triangles
+from .mesh_arrays import read_loop_triangles, selected_faces
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import input_of, set_inputs
 from .nodes.thicken import MOVES
@@ -101,7 +101,5 @@ def thicken_modifier(source: bpy.types.Object) -> bpy.types.NodesModifier | None
 
 def selected_triangles(source: bpy.types.Object) -> NDArray[np.bool_]:
     """(m,) which of a mesh's triangles belong to faces that are selected in edit mode."""
-    selected = np.zeros(len(source.data.polygons), bool)
-    source.data.polygons.foreach_get("select", selected)
     _, polygons = read_loop_triangles(source.data)
-    return selected[polygons]
+    return selected_faces(source.data)[polygons]

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..files.json_figures import known
 from ..files.write_triangles import export_triangles
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
@@ -49,13 +49,9 @@ class ThickenWork:
             "points": len(found.moves),
             "faces": len(found.after.shape.triangles),
             "farthest_move": float(np.linalg.norm(found.moves, axis=1).max(initial=0.0)),
-            "minimum_before": _number(found.before.minimum),
-            "minimum": _number(found.after.minimum),
-            "narrowest_gap": _number(found.gap),
+            "minimum_before": known(found.before.minimum),
+            "minimum": known(found.after.minimum),
+            "narrowest_gap": known(found.gap),
             "share_below": found.left.share,
             "patches": len(found.left.patches),
         }
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None

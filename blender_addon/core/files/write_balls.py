@@ -5,7 +5,6 @@ all."""
 from __future__ import annotations
 
 import json
-import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,6 +15,7 @@ from ..errors import ExportError
 from ..small_matrices import times
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
+from .json_figures import known
 from .placing import is_identity, parts_of
 from .robot_links import write_mjcf, write_urdf
 from .rows_of_text import write_rows
@@ -102,14 +102,10 @@ def as_figures(balls: Balls) -> dict[str, str | float | None]:
     """Return figures for JSON of how well balls represent the solid; an unknown figure is None."""
     return {
         "mode": balls.mode.name.lower(),
-        "covered": _known(balls.covered),
-        "outside": _known(balls.outside),
-        "farthest": _known(balls.farthest),
+        "covered": known(balls.covered),
+        "outside": known(balls.outside),
+        "farthest": known(balls.farthest),
     }
-
-
-def _known(figure: float) -> float | None:
-    return figure if math.isfinite(figure) else None
 
 
 def _write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:

@@ -20,6 +20,7 @@ from ..curves.smooth_line import marks_of
 from ..skeleton.branches import MEASURES, branches_of
 from ..skeleton.skeleton import Skeleton
 from .extensions import extension_of
+from .json_figures import known
 from .vtp import write_vtp
 from .whole_file import write_whole
 
@@ -144,17 +145,13 @@ def _write_json(content: _Content, stream: BinaryIO) -> None:
             {
                 "nodes": branch.tolist(),
                 "faces": np.flatnonzero(faces == number).tolist(),
-                "measures": {name: _known(value) for name, value in row.items()},
+                "measures": {name: known(value) for name, value in row.items()},
             }
             for number, (branch, row) in enumerate(parts)
         ],
     }
     stream.write(json.dumps(found, separators=(",", ":"), allow_nan=False).encode("ascii"))
     stream.write(b"\n")
-
-
-def _known(value: Any) -> Any:
-    return value if math.isfinite(value) else None
 
 
 def _rows_of(content: _Content) -> list[dict[str, Any]]:

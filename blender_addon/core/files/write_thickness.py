@@ -8,7 +8,6 @@ and .ply, and null in .json.
 from __future__ import annotations
 
 import json
-import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +23,7 @@ from ..solid.measurement import Measurement
 from ..solid.thickness_colours import scale_of
 from ..solid.thin_parts import ThinParts
 from .extensions import extension_of
+from .json_figures import known
 from .picture import encoded
 from .thickness_page import page_of
 from .whole_file import write_whole
@@ -79,7 +79,7 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
     """Return the content of `.json`: lengths are in `unit`, areas in its square; None means that there is no length."""
     place = _mover(found)
     return {
-        "minimum": _number(found.minimum),
+        "minimum": known(found.minimum),
         "limit": parts.limit,
         "unit": unit or None,
         "area_below": parts.area,
@@ -90,8 +90,8 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
             {
                 "place": place(np.array([patch.place]))[0].tolist(),
                 "area": patch.area,
-                "minimum": _number(patch.minimum),
-                "lowest": _number(patch.lowest),
+                "minimum": known(patch.minimum),
+                "lowest": known(patch.lowest),
             }
             for patch in parts.patches
         ],
@@ -102,10 +102,6 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
         "noise": found.noise,
         "warnings": [str(warning) for warning in found.warnings],
     }
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

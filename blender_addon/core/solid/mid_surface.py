@@ -200,11 +200,12 @@ def _simplified(
     size = asked.size
     whole = wanted = len(sheets.vertices)
     normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
+    area = 0.5 * float(doubled.sum())
     if size > 0.0:
-        _check_size(size, 0.5 * float(doubled.sum()), asked.quads)
+        _check_size(size, area, asked.quads)
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
     if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
-        wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
+        wanted = min(whole, int(_PER_AREA * area / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
     faces = _without_crossings(cast("SheetFaces", found), sheets)
     if size <= 0.0:
