@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the mesh of an axis in Blender holds besides the axis, as arrays.
+"""The arrays of the mesh of an axis in Blender, besides those of the axis.
 
-It is computed in the thread of a job where there is one, because Blender draws nothing while its main thread works.
+They are computed in the thread of a job where there is one, because Blender draws nothing while its main thread works.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class ShownAxis:
-    """What is shown of an axis.
+    """The part of an axis that is shown.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class ShownAxis:
 
 
 def shown_axis(whole: MedialAxis, box: Sequence[float] | None, look: Look) -> ShownAxis:
-    """What a look shows of an axis.
+    """Find the part of an axis that a look shows.
 
     Parameters
     ----------
