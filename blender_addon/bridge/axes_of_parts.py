@@ -17,10 +17,16 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..core.axis.compute import Computation
+    from .shown_axis import ShownAxis
 
 
 def write_result_of_part(
-    source: bpy.types.Object, part: str, computation: Computation, frame: np.ndarray, look: Look
+    source: bpy.types.Object,
+    part: str,
+    computation: Computation,
+    frame: np.ndarray,
+    look: Look,
+    shown: ShownAxis,
 ) -> bpy.types.Object:
     """Make the result of a part of a source, or update the existing one, as `write_result` does.
 
@@ -30,7 +36,7 @@ def write_result_of_part(
     """
     product = replace(RESULT, suffix=f"{SUFFIX} {part}", part=part)
     is_new = product.of(source) is None
-    result = write_result(source, computation, frame, look, product)
+    result = write_result(source, computation, frame, look, product, shown=shown)
     if is_new:
         result[OF_PART] = part
         for collection in result.users_collection:

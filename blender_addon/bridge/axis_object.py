@@ -3,17 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
-from ..core.axis.clip import within_box
 from ..core.axis.colours import radius_range as colours_of_radii
-from ..core.axis.crumbs import crumbs_below, without_crumbs
-from ..core.axis.cut import pieces, without_shards, without_small_pieces
 from ..core.axis.verdict import verdict
 from ..core.options import Choice
 from ..core.settings import (
@@ -37,6 +33,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .shown_axis import ShownAxis, box_of, shown_axis
 from .slider_ranges import remember_ranges
 from .structure_object import remember_structure
 from .wires import show_wires
@@ -83,6 +80,7 @@ def write_result(
     look: Look = ALL,
     product: Product = RESULT,
     between_steps: bool = False,
+    shown: ShownAxis | None = None,
 ) -> bpy.types.Object:
     """Make the result of a source, or update the existing one; all or nothing.
 
@@ -98,15 +96,18 @@ def write_result(
         Of the whole source, or of one of its parts.
     between_steps : bool
         As in `replace_mesh`.
+    shown : ShownAxis, optional
+        What the look leaves of the axis, where a thread has computed it.
 
     Raises
     ------
     InvalidInputError
         The result cannot be changed now, or Blender cannot hold it.
     """
-    box = _box(computation.chosen.samples.points)
-    axis, settings = _shown(computation.axis, box, look), computation.settings
-    result, _ = product.write_mesh(source, partial(_axis_mesh, axis, look), between_steps)
+    box = box_of(computation.chosen.samples.points)
+    shown = shown or shown_axis(computation.axis, box, look)
+    axis, settings = shown.axis, computation.settings
+    result, _ = product.write_mesh(source, partial(_axis_mesh, shown, look), between_steps)
     place(result, frame)
     if result.get("ma_side") != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface
@@ -114,13 +115,13 @@ def write_result(
     result[BOX] = box
     _remember(result, source, computation)
     result[TURNED] = computation.turned
-    _remember_shown(result, computation.axis, axis, settings, look)
+    _remember_shown(result, shown, settings, look)
     return result
 
 
 def update_result(
     result: bpy.types.Object,
-    axis: MedialAxis,
+    shown: ShownAxis,
     settings: Settings,
     topology: str,
     look: Look = ALL,
@@ -130,11 +131,16 @@ def update_result(
 
     `between_steps` is as in `replace_mesh`.
     """
-    shown = _shown(axis, result.get(BOX), look)
     replace_mesh(result, partial(_axis_mesh, shown, look), between_steps)
-    show_wires(result, shown)
+    show_wires(result, shown.axis)
     result[TOPOLOGY] = topology
-    _remember_shown(result, axis, shown, settings, look)
+    _remember_shown(result, shown, settings, look)
+
+
+def box_on(result: bpy.types.Object) -> list[float] | None:
+    """The box of the samples of a result, as `box_of` gives it; None where a result has none."""
+    found = result.get(BOX)
+    return list(found) if hasattr(found, "__len__") else None
 
 
 def radius_range(result: bpy.types.Object) -> tuple[float, float]:
@@ -179,8 +185,9 @@ def look_of(result: bpy.types.Object) -> Look:
     return Look(**{name: result.get(f"ma_{name}", getattr(ALL, name)) for name in LOOKS})
 
 
-def _axis_mesh(axis: MedialAxis, look: Look, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
-    mesh = new_axis_mesh(axis, name)
+def _axis_mesh(shown: ShownAxis, look: Look, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
+    axis = shown.axis
+    mesh = new_axis_mesh(axis, name, shown.arrays)
     if look.colours and _shows_parts(axis, look):
         colour_parts(mesh, axis.structure.part, np.diff(axis.face_offsets))
     elif look.colours:
@@ -190,22 +197,6 @@ def _axis_mesh(axis: MedialAxis, look: Look, name: str | bpy.types.Mesh) -> bpy.
 
 def _shows_parts(axis: MedialAxis, look: Look) -> bool:
     return look.by_part and axis.structure is not None
-
-
-def _box(points: np.ndarray) -> list[float]:
-    return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
-
-
-def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialAxis:
-    """The part of an axis that the look leaves; the whole axis where nothing would be left."""
-    if axis.level is not None:
-        return without_crumbs(axis, look.crumbs)
-    if box is not None and len(box) == 6:
-        low, high = np.reshape(box, (2, 3))
-        near = within_box(axis, low, high, look.within)
-        axis = near if near.facets else axis
-    axis = without_shards(axis, look.crumbs)
-    return without_small_pieces(axis, look.smallest_island / 100)
 
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
@@ -222,9 +213,10 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
 
 
 def _remember_shown(
-    result: bpy.types.Object, whole: MedialAxis, axis: MedialAxis, settings: Settings, look: Look
+    result: bpy.types.Object, shown: ShownAxis, settings: Settings, look: Look
 ) -> None:
     """Stores the figures of the shown axis for the panel, and the settings and the look that made it."""
+    axis = shown.axis
     for name, option in OPTIONS.items():
         value = getattr(settings, name)
         result[f"ma_{name}"] = value.name if isinstance(option, Choice) else value
@@ -232,9 +224,8 @@ def _remember_shown(
         result[f"ma_{name}"] = getattr(look, name)
     result[UNBOUNDED] = axis.unbounded
     result[ZERO_AREA] = axis.zero_area
-    result[HIDDEN] = whole.facets - axis.facets
-    result[CRUMBS] = crumbs_below(whole, look.crumbs) if axis is not whole else 0
-    result[PIECES] = len(np.unique(pieces(axis))) if axis.level is None else axis.level.betti[0]
+    result[HIDDEN], result[CRUMBS] = shown.hidden, shown.crumbs
+    result[PIECES] = shown.pieces
     result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
     _remember_level(result, axis)
     result[RADIUS_MIN] = float(axis.radius.min())

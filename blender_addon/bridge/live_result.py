@@ -17,8 +17,9 @@ from .source_state import forget_answer, remember_state, state_of
 if TYPE_CHECKING:
     from mathutils import Matrix
 
-    from ..core.axis.compute import Computation
     from ..core.samples.shape import Shape
+    from ..core.settings import Look
+    from .shown_axis import Computed
 
 LIVE = "medial_axis_auto_update"  # a property of every object; off where it was never set
 
@@ -39,12 +40,15 @@ class LiveSource:
         Of the source.
     state : tuple or None
         The shape and the scale, as in `source_state`.
+    look : Look
+        Of the result.
     """
 
     name: str
     shape: Shape
     world: Matrix
     state: tuple[str, list[float]] | None
+    look: Look
 
 
 def can_be_live(result: bpy.types.Object) -> bool:
@@ -81,10 +85,10 @@ def read_live(result: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> LiveS
     source = source_of(result)
     shape = read_object(source, depsgraph)
     world = source.evaluated_get(depsgraph).matrix_world.copy()
-    return LiveSource(result.name, shape, world, state_of(source, depsgraph))
+    return LiveSource(result.name, shape, world, state_of(source, depsgraph), look_of(result))
 
 
-def write_live(read: LiveSource, computation: Computation, is_coarse: bool) -> None:
+def write_live(read: LiveSource, found: Computed, is_coarse: bool) -> None:
     """Give a result the axis of its source as it was read; nothing, where the result is gone or live no more.
 
     A coarse result stays outdated, as the panel says, until the full one is there.
@@ -96,11 +100,12 @@ def write_live(read: LiveSource, computation: Computation, is_coarse: bool) -> N
     result = bpy.data.objects.get(read.name)
     if result is None or result not in live_results():
         return
-    if computation.axis.is_empty:
-        raise MedialAxisError(computation.warnings[-1])
+    if found.shown is None:
+        raise MedialAxisError(found.warnings[-1])
     source, look = source_of(result), look_of(result)
     kept = {name: result[name] for name in _NOT_COARSE if name in result}
-    write_result(source, computation, read.shape.frame, look, between_steps=True)
+    shown = found.shown if look == read.look else None
+    write_result(source, found.computation, read.shape.frame, look, between_steps=True, shown=shown)
     follow(result, source, read.world, look.parent)
     if is_coarse:
         for name, value in kept.items():

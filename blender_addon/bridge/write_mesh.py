@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.axis.directions import curve_tangents, sheet_normals
 from ..core.axis.medial_axis import no_edges
 from ..core.axis.structure import SEAM
-from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
-from ..core.machine.native import own_errors
 from .attributes import NORMAL, TANGENT, attributes, level_attributes, structure_attributes
+from .axis_arrays import AxisArrays, arrays_of, edges_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,7 +32,9 @@ class Polygons(Protocol):
     face_vertices: NDArray[np.int32]
 
 
-def new_axis_mesh(axis: MedialAxis, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
+def new_axis_mesh(
+    axis: MedialAxis, name: str | bpy.types.Mesh, arrays: AxisArrays | None = None
+) -> bpy.types.Mesh:
     """A medial axis as a mesh with all attributes, or no mesh at all.
 
     Parameters
@@ -42,42 +42,34 @@ def new_axis_mesh(axis: MedialAxis, name: str | bpy.types.Mesh) -> bpy.types.Mes
     axis : MedialAxis
     name : str or Mesh
         As in `new_mesh`.
+    arrays : AxisArrays, optional
+        Those of `axis`, where a thread has computed them.
 
     Raises
     ------
     InvalidInputError
         Coordinates too large for Blender.
     """
-    structure = axis.structure
-    shown = axis if structure is None else with_facets_turned(axis, structure.turned)
-    mesh = new_mesh(shown, name, attributes(), axis.edges)
+    if arrays is None:
+        arrays = arrays_of(axis)
+    edges = arrays.edges, arrays.corner_edges
+    mesh = new_mesh(arrays.turned, name, attributes(), axis.edges, edges)
     with _removed_on_error(mesh, name):
-        _add_directions(mesh, shown)
+        _add_vectors(mesh, NORMAL, arrays.normals)
+        _add_vectors(mesh, TANGENT, arrays.tangents)
         if axis.level is None:
             return mesh
         _add_attributes(mesh, axis.level, level_attributes())
-        if structure is not None:
-            _add_structure(mesh, structure)
+        if axis.structure is not None:
+            _add_structure(mesh, axis.structure)
     return mesh
 
 
-def _add_directions(mesh: bpy.types.Mesh, axis: MedialAxis) -> None:
-    """Add the normal of the sheet and the tangent of the curve at each vertex, along which instances are turned."""
-    if axis.structure is not None:
-        part = axis.structure.part
-        _add_vectors(
-            mesh,
-            NORMAL,
-            sheet_normals(axis.vertices, axis.face_offsets, axis.face_vertices, part),
-        )
-    if len(axis.edges):
-        _add_vectors(mesh, TANGENT, curve_tangents(axis.vertices, axis.edges))
-
-
-def _add_vectors(mesh: bpy.types.Mesh, name: str, vectors: NDArray[np.float64]) -> None:
-    """Add (v, 3) vectors at the vertices."""
-    data = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data
-    data.foreach_set("vector", vectors.astype(np.float32).ravel())
+def _add_vectors(mesh: bpy.types.Mesh, name: str, vectors: NDArray[np.float32] | None) -> None:
+    """Add (v, 3) vectors at the vertices, along which instances are turned, where there are any."""
+    if vectors is not None:
+        data = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data
+        data.foreach_set("vector", vectors.ravel())
 
 
 def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
@@ -109,6 +101,7 @@ def new_mesh(
     name: str | bpy.types.Mesh,
     table: Iterable[Attribute] = (),
     edges: NDArray[np.int32] | None = None,
+    of_polygons: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None,
 ) -> bpy.types.Mesh:
     """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
 
@@ -120,6 +113,8 @@ def new_mesh(
     table : iterable of Attribute
     edges : (w, 2) int32, optional
         Edges besides those of the polygons; they come after these.
+    of_polygons : tuple of arrays, optional
+        The edges of the polygons and the edge after each corner, where a thread has computed them.
 
     Raises
     ------
@@ -131,7 +126,8 @@ def new_mesh(
     mesh = bpy.data.meshes.new(name) if isinstance(name, str) else name
     mesh.clear_geometry()
     with _removed_on_error(mesh, name):
-        _set_faces(mesh, polygons, positions, no_edges() if edges is None else edges)
+        alone = no_edges() if edges is None else edges
+        _set_faces(mesh, polygons, positions, alone, of_polygons)
         _add_attributes(mesh, polygons, table)
     return mesh
 
@@ -184,20 +180,23 @@ def _check_faces(polygons: Polygons) -> None:
 
 
 def _set_faces(
-    mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray, alone: NDArray[np.int32]
+    mesh: bpy.types.Mesh,
+    polygons: Polygons,
+    positions: np.ndarray,
+    alone: NDArray[np.int32],
+    of_polygons: tuple[NDArray[np.int32], NDArray[np.int32]] | None,
 ) -> None:
     """Set vertices, edges, corners and polygons.
 
-    The edges are made here, because Blender takes several times as long for them, longer than for all the rest.
+    The edges are not made by Blender, because it takes several times as long for them, longer than for all the rest.
 
     Numbers that Blender keeps unsigned it copies in one go from unsigned arrays; others it reads one by one, which
     takes 20 times as long.
     """
     offsets = np.ascontiguousarray(polygons.face_offsets, np.uint32)
-    with own_errors() as module:
-        edges, corner_edges = module.polygon_edges(
-            polygons.face_offsets, polygons.face_vertices, len(polygons.vertices)
-        )
+    edges, corner_edges = of_polygons or edges_of(
+        polygons.face_offsets, polygons.face_vertices, len(polygons.vertices)
+    )
     edges = np.concatenate([edges, alone])
     mesh.vertices.add(len(polygons.vertices))
     mesh.edges.add(len(edges))

@@ -6,14 +6,12 @@ one begins when the slider has rested for a moment.
 """
 
 import time
-from functools import partial
 
 import bpy
 
 from ..bridge.axis_object import ANALYSIS, BETTI
 from ..bridge.output_object import POINTS, is_gone
 from ..bridge.wires import WIRES
-from ..core.axis.compute import refilter
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
 from . import current_job
@@ -24,9 +22,10 @@ THRESHOLD_SAMPLES = 30_000  # the same where another hierarchy is needed
 WIRES_AND_LOOPS = 10_000  # results of more wires, or of a tenth as many pieces and loops
 _REST = 0.25  # seconds that a slider rests before the update begins
 
-_wanted = None  # the update that waits: (session, name of the result, settings)
+_wanted = None  # the update that waits: (name of the result, settings)
 _asked = 0.0
-_write = None  # called with the result, the settings, the axis
+_work = None  # what the thread does
+_write = None  # called with the result, the settings, and what the work returned
 _running = False
 _applied = set()  # (name of the result, settings) of updates whose meshes are in no undo step
 
@@ -48,13 +47,15 @@ def needs_thread(result, levels_stay):
     return many or result.get(POINTS, 0) > most
 
 
-def request(result, settings, write):
+def request(result, settings, work, write):
     """Have a result updated soon; a later request takes the place of this one.
 
-    `write(result, settings, axis)` gives the result another axis in the main thread and returns a sentence or "".
+    `work(progress)` extracts another axis in the thread; `write(result, settings, found)` gives it to the result in the
+    main thread and returns a sentence or "".
     """
-    global _wanted, _asked, _write
-    _wanted, _asked, _write = (result.name, settings), time.monotonic(), write
+    global _wanted, _asked, _work, _write
+    _wanted, _asked = (result.name, settings), time.monotonic()
+    _work, _write = work, write
     if not bpy.app.timers.is_registered(_begin):
         bpy.app.timers.register(_begin, first_interval=_REST)
 
@@ -105,8 +106,7 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
         if is_gone(result):
             return {"CANCELLED"}
         self._key, _running = result[ANALYSIS], True
-        work = partial(refilter, self._key, self._settings)
-        return self.watch(context, [Task(self._name, work)], "medial axis")
+        return self.watch(context, [Task(self._name, _work)], "medial axis")
 
     def meanwhile(self):
         if waits():  # the slider went on, so this is for nothing

@@ -28,9 +28,9 @@ from ..bridge.live_result import (
     write_live,
 )
 from ..bridge.output_object import source_of
+from ..bridge.shown_axis import compute_shown
 from ..bridge.source_state import differs, state_of
 from ..bridge.wires import wires_group
-from ..core.axis.compute import compute_axis
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
 from ..core.settings import ANALYSED, SAMPLING_OPTIONS
@@ -217,13 +217,9 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
         return self.watch(context, self._tasks(), "medial axis")
 
     def _tasks(self):
-        settings = self._stages.pop(0)
-        return [
-            Task(
-                self._name,
-                partial(compute_axis, self._read.shape, settings, limit=memory_limit()),
-            )
-        ]
+        read, settings = self._read, self._stages.pop(0)
+        work = partial(compute_shown, read.shape, settings, read.look, memory_limit())
+        return [Task(self._name, work)]
 
     def meanwhile(self):
         """An edit makes the work worthless; another update begins when the edits have ended."""

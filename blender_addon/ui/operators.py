@@ -17,8 +17,8 @@ from ..bridge.report_object import (
     write_on_source,
     write_report,
 )
+from ..bridge.shown_axis import compute_shown
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
-from ..core.axis.compute import compute_axis
 from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
@@ -81,24 +81,25 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         return {found.words(part.number): part.shape for part in found.parts}, found.warnings
 
     def work(self, shape):
-        return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
+        return partial(compute_shown, shape, settings_from(self), look_from(self), memory_limit())
 
-    def write(self, thing, computation, frame):
-        if computation.axis.is_empty:
+    def write(self, thing, found, frame):
+        if found.shown is None:
             return None
-        return write_result(thing, computation, frame, look_from(self))
+        return write_result(thing, found.computation, frame, look_from(self), shown=found.shown)
 
-    def write_part(self, part, thing, computation, frame):
-        if computation.axis.is_empty:
-            raise MedialAxisError(computation.warnings[-1])
+    def write_part(self, part, thing, found, frame):
+        if found.shown is None:
+            raise MedialAxisError(found.warnings[-1])
         look = look_from(self)
-        return write_result_of_part(thing, part, computation, frame, look)
+        return write_result_of_part(thing, part, found.computation, frame, look, found.shown)
 
     def settle(self, made):
         if self.each_part:
             remove_other_parts(made)
 
-    def summary(self, computation):
+    def summary(self, found):
+        computation = found.computation
         axis, chosen = computation.axis, computation.chosen
         known = (computation.topology, computation.sides, chosen.reason, computation.density)
         return (

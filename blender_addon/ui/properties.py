@@ -12,6 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 
 from ..bridge.axis_object import (
     ANALYSIS,
+    box_on,
     is_result,
     result_of,
     settings_of,
@@ -20,6 +21,7 @@ from ..bridge.axis_object import (
 from ..bridge.output_object import WARNINGS, is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
+from ..bridge.shown_axis import shown_axis
 from ..bridge.surface_object import is_surface, surface_of
 from ..bridge.wires import wires_group
 from ..core.axis.compute import refilter, refiltered_topology
@@ -237,23 +239,33 @@ def _watch_undo():
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = _wanted(kept, panel)
-    show = partial(_show_refiltered, look_from(panel))
+    look = look_from(panel)
+    work = partial(_refiltered, result[ANALYSIS], box_on(result), wanted, look)
+    show = partial(_show_refiltered, look)
     if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
         _watch_undo()
         wires_group()  # the thread's update is no step of undo, and may only use what a step has
-        apply_later.request(result, wanted, partial(show, between_steps=True))
+        apply_later.request(result, wanted, work, partial(show, between_steps=True))
         return ""
-    return show(result, wanted, refilter(result[ANALYSIS], wanted))
+    return show(result, wanted, work(None))
 
 
-def _show_refiltered(look, result, wanted, axis, between_steps=False) -> str:
+def _refiltered(key, box, wanted, look, progress):
+    """(axis, what is shown of it): None where the analysis is gone, and nothing is shown of an empty axis."""
+    axis = refilter(key, wanted, progress)
+    is_there = axis is not None and not axis.is_empty
+    return axis, shown_axis(axis, box, look) if is_there else None
+
+
+def _show_refiltered(look, result, wanted, found, between_steps=False) -> str:
+    axis, shown = found
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
-    if axis.is_empty:
+    if shown is None:
         return "No facet passes these conditions; the medial axis was left as it was"
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
-    update_result(result, axis, settings, topology, look, between_steps)
+    update_result(result, shown, settings, topology, look, between_steps)
     return ""
 
 

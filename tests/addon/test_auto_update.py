@@ -43,10 +43,12 @@ def update(result, coarse=False):
     bpy.context.view_layer.update()
     settings = auto.wish(bpy.context, result)[1]
     read = live.read_live(result, bpy.context.view_layer.depsgraph)
-    computation = addon("core.axis.compute").compute_axis(
-        read.shape, settings.coarse if coarse else settings
-    )
-    live.write_live(read, computation, coarse)
+    live.write_live(read, computed(read, settings.coarse if coarse else settings), coarse)
+
+
+def computed(read, settings):
+    limit = addon("ui.preferences").memory_limit()
+    return addon("bridge.shown_axis").compute_shown(read.shape, settings, read.look, limit)
 
 
 def test_it_is_off_at_first_and_watches_nothing_in_the_background():
@@ -139,10 +141,9 @@ def test_an_axis_without_facets_is_told_and_not_written(pair):
     read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
     settings = dataclasses.replace(auto.wish(bpy.context, result)[1], theta=np.pi / 2, rho=1e9)
     settings = dataclasses.replace(settings, form=addon("core.settings").Form.PUBLISHED)
-    computation = addon("core.axis.compute").compute_axis(read.shape, settings)
     facets = len(result.data.polygons)
     with pytest.raises(addon("core.errors").MedialAxisError, match="no facet passes"):
-        live.write_live(read, computation, False)
+        live.write_live(read, computed(read, settings), False)
     assert len(result.data.polygons) == facets > 0
 
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, positions
+from scene import addon, attribute, compute, ellipsoid, positions
 
 
 def honeycomb(rows, columns):
@@ -99,3 +99,19 @@ def test_nothing_is_left_of_a_mesh_that_cannot_be_made(fields, error):
     with pytest.raises(error):
         written(changed(honeycomb(1, 2), **fields), "Broken")
     assert len(bpy.data.meshes) == 0
+
+
+def test_what_needs_no_blender_is_computed_before_an_axis_is_written(monkeypatch):
+    """In a window that is done in a thread; Blender draws nothing while an axis is written."""
+
+    def not_now(*_):
+        raise AssertionError("this stops the window")
+
+    ellipsoid()
+    monkeypatch.setattr(addon("bridge.axis_object"), "shown_axis", not_now)
+    for name in ("arrays_of", "edges_of"):
+        monkeypatch.setattr(addon("bridge.write_mesh"), name, not_now)
+    for form in ("CLEAN", "PUBLISHED", "CURVE"):
+        compute(form=form)
+    bpy.context.scene.medial_axis.form = "CLEAN"
+    bpy.context.scene.medial_axis.simplify = 1.0

@@ -99,7 +99,7 @@ def lowest_of_piece(
     """(v,) the lowest vertex of the piece of each vertex; facets or edges join their corners.
 
     Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
-    changes.
+    changes. Corners are sorted by their vertices once, because NumPy's `minimum.at` takes far longer.
 
     Parameters
     ----------
@@ -112,14 +112,26 @@ def lowest_of_piece(
     label = np.arange(vertices)
     if not len(starts):
         return label
-    sizes = np.diff(starts, append=len(corners))
-    facet_of_corner = np.repeat(np.arange(len(starts)), sizes)
+    facet_of_corner = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(corners)))
+    order = np.argsort(corners, kind="stable")
+    used, first = np.unique(corners[order], return_index=True)
+    facet_of_corner = facet_of_corner[order]
     while True:
-        lowest = np.minimum.reduceat(label[corners], starts)[facet_of_corner]
-        hooked = label.copy()
-        np.minimum.at(hooked, label[corners], lowest)
-        np.minimum.at(hooked, corners, lowest)
-        hooked = hooked[hooked]
-        if np.array_equal(hooked, label):
+        of_facet = np.minimum.reduceat(label[corners], starts)
+        lowest = np.minimum.reduceat(of_facet[facet_of_corner], first)
+        falls = np.flatnonzero(lowest < label[used])
+        if not len(falls):
             return label
-        label = hooked
+        label = _hooked(label, used[falls], lowest[falls])
+
+
+def _hooked(
+    label: NDArray[np.int64], vertex: NDArray[np.integer], lowest: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """The labels after some vertices, and the vertices that were their labels, have got lower ones."""
+    hooked = label.copy()
+    falling = np.argsort(-lowest, kind="stable")
+    hooked[label[vertex[falling]]] = lowest[falling]  # the last one, the lowest, stays
+    hooked = np.minimum(hooked, label)
+    hooked[vertex] = np.minimum(hooked[vertex], lowest)
+    return hooked[hooked]

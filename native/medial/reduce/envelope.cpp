@@ -68,15 +68,21 @@ int32_t Envelope::build(int32_t begin, int32_t end) {
 
 void Envelope::refit() {
   for (Node& node : nodes_) measure(node);
+  prepared_.resize(parts_.size());
+  for (size_t i = 0; i < parts_.size(); ++i) prepared_[i] = of_part(static_cast<int32_t>(i));
 }
 
-NearestOfEnvelope Envelope::nearest_in(int32_t part, const Vec3& query) const {
+EnvelopeOfSpheres Envelope::of_part(int32_t part) const {
   std::array<Sphere, 3> spheres;
   size_t count = 0;
   for (const int32_t v : parts_[part]) {
     if (v >= 0) spheres[count++] = {mesh_.vertices[v], mesh_.radius[v]};
   }
-  return nearest_ball({spheres.data(), count}, query);
+  return EnvelopeOfSpheres({spheres.data(), count});
+}
+
+NearestOfEnvelope Envelope::nearest_in(int32_t part, const Vec3& query) const {
+  return prepared_.empty() ? of_part(part).nearest(query) : prepared_[part].nearest(query);
 }
 
 Envelope::Found Envelope::find(const Vec3& query, int32_t near) const {

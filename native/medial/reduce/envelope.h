@@ -37,7 +37,7 @@ class Envelope {
   std::span<const Part> parts() const { return parts_; }
   // Returns the nearest ball of one part.
   NearestOfEnvelope nearest_in(int32_t part, const Vec3& query) const;
-  // Updates the tree after the spheres have moved.
+  // Updates the tree after the spheres have moved, and prepares the parts for many queries.
   void refit();
 
  private:
@@ -54,11 +54,13 @@ class Envelope {
   // Returns a lower bound of the distance to a part, much sooner than the distance.
   double part_bound(int32_t part, const Vec3& query) const;
   void search(int32_t id, const Vec3& query, Found& best) const;
+  EnvelopeOfSpheres of_part(int32_t part) const;
   static double bound(const Node& node, const Vec3& query);
 
   const SphereMesh& mesh_;
   std::vector<Part> parts_;  // leaf after leaf
   std::vector<Node> nodes_;
+  std::vector<EnvelopeOfSpheres> prepared_;  // of the parts, or empty
 };
 
 }  // namespace medial

@@ -218,7 +218,6 @@ class Fitter {
     }
     mesh_.vertices = vertices;
     mesh_.radius = radius;
-    measure();
     return now;
   }
 
