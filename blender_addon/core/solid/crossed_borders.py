@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..samples.triangles import unit_normals
-from ..small_matrices import length_of
+from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -85,7 +85,7 @@ def _beside(
 ) -> NDArray[np.float64]:
     """How far places lie beside lines, positive to the left; 0 where that is less than a step."""
     along, to = end - start, place - start
-    length = np.linalg.norm(along, axis=-1)
+    length = np.sqrt(dot(along, along))
     away = along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0]
     away /= np.where(length > 0.0, length, 1.0)
     return np.where(np.abs(away) < step, 0.0, away)

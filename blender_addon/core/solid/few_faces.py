@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -87,7 +87,7 @@ def _reduced(
     """The sheets with so many vertices, or all where that cannot be; triangles of different labels are not joined."""
     with own_errors() as module:
 
-        def reduced(wanted: int) -> tuple[NDArray[np.float64], ...] | None:
+        def reduced(wanted: int) -> tuple[Any, ...] | None:
             return module.reduce_sheets(
                 np.ascontiguousarray(sheets.vertices),
                 _radii(sheets),
@@ -100,7 +100,7 @@ def _reduced(
             )
 
         found = reduced(wanted) or reduced(len(sheets.vertices))
-    places, _, row, offsets, corners, part, _ = cast("tuple[NDArray[np.float64], ...]", found)
+    places, _, row, offsets, corners, part, _ = cast("tuple[Any, ...]", found)
     places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
     sheet = np.zeros(int(label.max()) + 1, np.int32)
     sheet[label] = sheets.part
