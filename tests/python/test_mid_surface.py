@@ -12,9 +12,10 @@ from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import MidSurfaceSettings, Settings
-from medial_axis.core.solid import even_quads, quad_pairs
+from medial_axis.core.solid import even_quads, few_faces, quad_pairs
 from medial_axis.core.solid import mid_surface as middle
 from medial_axis.core.solid.carried_sheets import CarriedSheets
+from medial_axis.core.solid.crossed_borders import crossings
 from medial_axis.core.solid.even_triangles import divided, even_triangles
 from medial_axis.core.solid.mid_surface import mid_surface
 from medial_axis.core.solid.quad_pairs import least_sines
@@ -32,8 +33,13 @@ def sheets_of(mesh, settings=Settings(samples=4000), **wanted):
 
 
 def areas(found):
-    a, b, c = (found.vertices[found.triangles[:, i]] for i in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return np.linalg.norm(turns_of(found.vertices, found.triangles), axis=1) / 2
+
+
+def turns_of(points, triangles):
+    """(t, 3) the normals of triangles, twice as long as these are large."""
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return np.cross(b - a, c - a)
 
 
 def off(known, places):
@@ -297,6 +303,31 @@ def test_a_grid_keeps_the_edges_round_it():
     assert even_quads._grid(np.delete(ring, 1, axis=0)) is None
 
 
+@pytest.mark.parametrize("past", (8.2, 9.5))
+def test_only_around_a_border_that_crosses_itself_triangles_stay(past):
+    """A square of 12 by 12 with a slit, of which one side reaches across the other one."""
+    places = np.stack(np.meshgrid(range(13), range(13), [0], indexing="ij"), axis=-1)
+    places = places.reshape(-1, 3).astype(float)
+    at, solid = np.arange(169).reshape(13, 13), np.ones((12, 12), bool)
+    solid[6, :8] = False
+    places[at[6, 2], 0] = past
+    a, b, c, d = (each[solid] for each in (at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]))
+    triangles = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
+    sheets = CarriedSheets(
+        places,
+        triangles.astype(np.int32),
+        np.zeros(len(triangles), np.int32),
+        np.full(triangles.shape, 0.5),
+    )
+    found = few_faces.few_faces(sheets, len(places), None)
+    assert 3 < len(found.part) < 60 and not len(crossings(found)[0])
+    whole, left = turns_of(places, triangles), turns_of(found.vertices, found.triangles)
+    np.testing.assert_allclose(left.sum(axis=0), whole.sum(axis=0), atol=1e-9)
+    assert topology.euler(found.triangles) == 1 and topology.edges(found.triangles)[1].max() == 2
+    largest = found.ring(int(np.diff(found.offsets).argmax()))
+    assert np.ptp(largest, axis=0)[:2].min() == 12.0
+
+
 def test_a_polygon_that_crosses_itself_is_no_face():
     """Three squares in a row, of which the rim of the last has a loop in it: its triangles overlap.
 
@@ -317,7 +348,7 @@ def test_a_polygon_that_crosses_itself_is_no_face():
         np.repeat(part, 2),
         np.ones((6, 3)),
     )
-    found = middle._without_crossings(faces, sheets)
+    found = few_faces._without_crossings(faces, sheets)
     assert found.part.tolist() == [0, 1, 1, 2, 2] and np.diff(found.offsets).tolist() == [
         4,
         *[3] * 4,
@@ -325,7 +356,7 @@ def test_a_polygon_that_crosses_itself_is_no_face():
     np.testing.assert_array_equal(found.ring(0), places[:4])
     np.testing.assert_array_equal(found.ring(3), sheets.vertices[[5, 8, 9]])
     simple = SheetFaces(places, offsets[:3], faces.corners[:8], part[:2])
-    assert middle._without_crossings(simple, sheets) is simple
+    assert few_faces._without_crossings(simple, sheets) is simple
 
 
 @pytest.mark.parametrize("quads, least", ((False, "0.00076"), (True, "0.0005")))

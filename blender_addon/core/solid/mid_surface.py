@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -32,6 +32,7 @@ from ..united import united
 from .carried_sheets import CarriedSheets, carried
 from .even_quads import even_quads
 from .even_triangles import even_triangles
+from .few_faces import few_faces
 from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
 from .thick_faces import ThickFaces, thick_faces
@@ -198,16 +199,15 @@ def _simplified(
 ) -> SheetFaces:
     """The sheets with the faces that show their shape, or with even ones of a size."""
     size = asked.size
-    whole = wanted = len(sheets.vertices)
+    wanted = len(sheets.vertices)
     normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
     area = 0.5 * float(doubled.sum())
     if size > 0.0:
         _check_size(size, area, asked.quads)
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
     if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
-        wanted = min(whole, int(_PER_AREA * area / length**2) + 1)
-    found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
-    faces = _without_crossings(cast("SheetFaces", found), sheets)
+        wanted = min(wanted, int(_PER_AREA * area / length**2) + 1)
+    faces = few_faces(sheets, wanted, progress)
     if size <= 0.0:
         return faces
     if asked.quads:
@@ -231,103 +231,12 @@ def _check_size(size: float, area: float, quads: bool) -> None:
         )
 
 
-def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
-    """The faces, but in each group of sheets in which a polygon crosses itself the triangles of the sheets."""
-    crossed = _crossed(faces, _groups(sheets))
-    if not crossed.any():
-        return faces
-    kept, own = ~crossed[faces.part], crossed[sheets.part]
-    sizes = np.diff(faces.offsets)
-    triangles = sheets.triangles[own].ravel() + len(faces.vertices)
-    rows = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
-    used, corners = np.unique(rows, return_inverse=True)
-    ends = np.zeros(kept.sum() + own.sum() + 1, np.int64)
-    ends[1:] = np.cumsum(np.append(sizes[kept], np.full(own.sum(), 3)))
-    return SheetFaces(
-        np.concatenate((faces.vertices, sheets.vertices))[used],
-        ends.astype(np.int32),
-        corners.reshape(-1).astype(np.int32),
-        np.concatenate((faces.part[kept], sheets.part[own])),
-    )
-
-
-def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
-    """(parts,) the same number for sheets that share vertices."""
-    parts = int(sheets.part.max()) + 1
-    pairs = np.column_stack((np.repeat(sheets.part, 3), parts + sheets.triangles.ravel()))
-    return united(parts + len(sheets.vertices), pairs)[:parts]
-
-
-def _crossed(faces: SheetFaces, group: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """(parts,) whether a polygon in the group of each sheet crosses itself.
-
-    Then its triangles overlap, and have more area than it encloses.
-    """
-    normals, doubled = unit_normals(faces.vertices[faces.triangles])
-    enclosed = np.zeros((len(faces.part), 3))
-    np.add.at(enclosed, faces.of, normals * doubled[:, None])
-    of = group[faces.part]
-    whole = np.bincount(of[faces.of], doubled, len(group))
-    inner = np.bincount(of, np.linalg.norm(enclosed, axis=1), len(group))
-    return np.asarray((whole - inner > _PLAIN * whole)[group])
-
-
 def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
     """Whether a sheet is not flat, given (t, 3) normals that are as long as triangles are large."""
     total = np.zeros((int(sheets.part.max()) + 1, 3))
     np.add.at(total, sheets.part, vectors)
     whole = np.bincount(sheets.part, np.linalg.norm(vectors, axis=1))
     return bool((np.linalg.norm(total, axis=1) < (1.0 - _PLAIN) * whole).any())
-
-
-def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> SheetFaces | None:
-    with own_errors() as module:
-        found = module.reduce_sheets(
-            np.ascontiguousarray(sheets.vertices),
-            _radii(sheets),
-            np.ascontiguousarray(sheets.triangles),
-            np.zeros((0, 2), np.int32),
-            np.ascontiguousarray(sheets.part),
-            _nodes(sheets),
-            wanted,
-            progress=progress and progress.part(),
-        )
-    if found is None:
-        return None
-    places, _, row, offsets, corners, part, _ = found
-    places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
-    return SheetFaces(places, offsets, corners, part)
-
-
-def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
-    """(v,) the radii by which the sheets are simplified: one for all where each sheet has one thickness."""
-    least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
-    np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
-    np.maximum.at(most, sheets.part, sheets.at_corners.max(axis=1))
-    if (least >= (1.0 - _PLAIN) * most).all():
-        return np.full(len(sheets.vertices), 0.5 * float(most.mean()))
-    radius = np.zeros(len(sheets.vertices))
-    np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)
-    return radius
-
-
-def _nodes(sheets: CarriedSheets) -> NDArray[np.int32]:
-    """The vertices where borders of sheets meet."""
-    triangles = sheets.triangles.astype(np.int64)
-    ends = np.sort(
-        np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1
-    )
-    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
-    edge = edge.reshape(-1)
-    part = np.repeat(sheets.part, 3)
-    low, high = np.full(len(uses), part.max() + 1), np.full(len(uses), -1)
-    np.minimum.at(low, edge, part)
-    np.maximum.at(high, edge, part)
-    first = np.zeros(len(uses), np.int64)
-    first[edge] = np.arange(len(edge))
-    border = ends[first[(uses != 2) | (low != high)]]
-    degree = np.bincount(border.ravel(), minlength=len(sheets.vertices))
-    return np.flatnonzero((degree != 0) & (degree != 2)).astype(np.int32)
 
 
 def _with_thickness(

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets with few faces: triangles of one plane are joined to polygons, none of which crosses itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from ..machine.native import own_errors
+from ..united import united
+from .crossed_borders import crossings
+from .sheet_faces import SheetFaces
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..machine.progress import Progress
+    from .carried_sheets import CarriedSheets
+
+_PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
+_WIDENED = 5  # so many times at most triangles are kept farther around a border that crosses itself
+
+
+def few_faces(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> SheetFaces:
+    """The sheets with few faces, but around places where the border of one would cross itself their triangles.
+
+    The other faces share edges with these. Groups of sheets in which this is not enough keep all of their triangles.
+    """
+    label = sheets.part.copy()
+    own = label.max() + 1 + np.arange(len(label), dtype=np.int32)
+    faces = _reduced(sheets, label, wanted, progress)
+    for widened in range(_WIDENED):
+        places, part = crossings(faces)
+        if not len(places):
+            return faces
+        near = _near(sheets, places, part, 2.0**widened)
+        label[near] = own[near]
+        faces = _reduced(sheets, label, wanted, progress)
+    return _without_crossings(faces, sheets)
+
+
+def _near(
+    sheets: CarriedSheets, places: NDArray[np.float64], part: NDArray[np.int32], reach: float
+) -> NDArray[np.bool_]:
+    """(t,) the triangles of sheets with a corner so many mean thicknesses around one of their places, or nearest."""
+    found = np.zeros(len(sheets.part), bool)
+    for place, number in zip(places, part, strict=True):
+        mine = np.flatnonzero(sheets.part == number)
+        away = np.linalg.norm(sheets.vertices[sheets.triangles[mine]] - place, axis=2)
+        far = max(away.min(), reach * sheets.at_corners[mine].mean())
+        found[mine[(away <= far).any(axis=1)]] = True
+    return found
+
+
+def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
+    """The faces, but in each group of sheets in which a polygon crosses itself the triangles of the sheets."""
+    group = _groups(sheets)
+    crossed = np.isin(group, group[crossings(faces)[1]])
+    if not crossed.any():
+        return faces
+    kept, own = ~crossed[faces.part], crossed[sheets.part]
+    sizes = np.diff(faces.offsets)
+    triangles = sheets.triangles[own].ravel() + len(faces.vertices)
+    rows = np.concatenate((faces.corners[np.repeat(kept, sizes)], triangles))
+    used, corners = np.unique(rows, return_inverse=True)
+    ends = np.zeros(kept.sum() + own.sum() + 1, np.int64)
+    ends[1:] = np.cumsum(np.append(sizes[kept], np.full(own.sum(), 3)))
+    return SheetFaces(
+        np.concatenate((faces.vertices, sheets.vertices))[used],
+        ends.astype(np.int32),
+        corners.reshape(-1).astype(np.int32),
+        np.concatenate((faces.part[kept], sheets.part[own])),
+    )
+
+
+def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
+    """(parts,) the same number for sheets that share vertices."""
+    parts = int(sheets.part.max()) + 1
+    pairs = np.column_stack((np.repeat(sheets.part, 3), parts + sheets.triangles.ravel()))
+    return united(parts + len(sheets.vertices), pairs)[:parts]
+
+
+def _reduced(
+    sheets: CarriedSheets, label: NDArray[np.int32], wanted: int, progress: Progress | None
+) -> SheetFaces:
+    """The sheets with so many vertices, or all where that cannot be; triangles of different labels are not joined."""
+    with own_errors() as module:
+
+        def reduced(wanted: int) -> tuple[Any, ...] | None:
+            return module.reduce_sheets(
+                np.ascontiguousarray(sheets.vertices),
+                _radii(sheets),
+                np.ascontiguousarray(sheets.triangles),
+                np.zeros((0, 2), np.int32),
+                np.ascontiguousarray(label),
+                _nodes(sheets, label),
+                wanted,
+                progress=progress and progress.part(),
+            )
+
+        found = reduced(wanted) or reduced(len(sheets.vertices))
+    places, _, row, offsets, corners, part, _ = cast("tuple[Any, ...]", found)
+    places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
+    sheet = np.zeros(int(label.max()) + 1, np.int32)
+    sheet[label] = sheets.part
+    return SheetFaces(places, offsets, corners, sheet[part])
+
+
+def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
+    """(v,) the radii by which the sheets are simplified: one for all where each sheet has one thickness."""
+    least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
+    np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
+    np.maximum.at(most, sheets.part, sheets.at_corners.max(axis=1))
+    if (least >= (1.0 - _PLAIN) * most).all():
+        return np.full(len(sheets.vertices), 0.5 * float(most.mean()))
+    radius = np.zeros(len(sheets.vertices))
+    np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)
+    return radius
+
+
+def _nodes(sheets: CarriedSheets, label: NDArray[np.int32]) -> NDArray[np.int32]:
+    """The vertices where borders of triangles with one label meet."""
+    triangles = sheets.triangles.astype(np.int64)
+    ends = np.sort(
+        np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1
+    )
+    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    edge = edge.reshape(-1)
+    part = np.repeat(label, 3)
+    low, high = np.full(len(uses), part.max() + 1), np.full(len(uses), -1)
+    np.minimum.at(low, edge, part)
+    np.maximum.at(high, edge, part)
+    first = np.zeros(len(uses), np.int64)
+    first[edge] = np.arange(len(edge))
+    border = ends[first[(uses != 2) | (low != high)]]
+    degree = np.bincount(border.ravel(), minlength=len(sheets.vertices))
+    return np.flatnonzero((degree != 0) & (degree != 2)).astype(np.int32)
