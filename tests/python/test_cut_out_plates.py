@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plates that are cut out along outlines: bridges no wider than thick are part of the sheet, and nothing else changes."""
+"""Plates that are cut out along outlines: bridges no wider than thick are part of the sheet."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def test_plates_that_overlap_are_no_plate():
 
 
 def middle(mesh, area):
-    """What is made of a solid, of whose middle a level square with an area was found."""
+    """The plate that is made of a solid, of whose middle a level square with an area was found."""
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * area**0.5
     triangles = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
     found = CarriedSheets(corners, triangles, np.zeros(2, np.int32), np.full((2, 3), T))

@@ -48,7 +48,11 @@ def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
     if not float(volumes.sum()) >= _MOSTLY * shape.volume > 0.0:
         return None
     largest = sheets.part == np.bincount(sheets.part, volumes).argmax()
-    across = _direction(normals[largest], doubled[largest])
+    return _plate(shape, _direction(normals[largest], doubled[largest]))
+
+
+def _plate(shape: Shape, across: NDArray[np.float64]) -> CarriedSheets | None:
+    """The middle of a plate whose flat faces look along a unit vector, about, and against it."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     turned = dot(normals, across[None])
     flat = np.sign(turned) * (np.abs(turned) > _ALONG)
@@ -68,9 +72,7 @@ def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
     return _sheets(middle, first_rows(shape.points)[triangles], high - low)
 
 
-def _direction(
-    normals: NDArray[np.float64], weights: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _direction(normals: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
     """(3,) the mean of unit normals as a unit vector, or 0."""
     mean = (normals * weights[:, None]).sum(axis=0)
     return np.asarray(mean / (length_of(mean) or 1.0))
