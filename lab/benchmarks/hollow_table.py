@@ -6,8 +6,9 @@
 Files are those of the folder MEDIAL_AXIS_TEST_DATA; the wall is in percent of the diagonal. Judged are the cavities
 alone: pairs of their triangles that cross, the distance of random places on them from the faces of the solid, in
 percent of the wall, and how many of these places lie outside of the solid. Blender's ways are a Solidify modifier with
-even thickness, and voxels (Remesh) whose vertices are displaced inward. They are left out
-where Blender is not installed, and MeshLib where the package meshlib is not.
+even thickness, voxels (Remesh) whose vertices are displaced inward, and a Boolean modifier with the exact solver that
+subtracts a scaled copy, or the inside of that Solidify modifier. They are left out where Blender is not installed, and
+MeshLib where the package meshlib is not.
 """
 
 import shutil
@@ -37,6 +38,8 @@ PLACES = 20_000
 NAMES = {
     "solidify": "Solidify, even thickness",
     "remesh": "Remesh and Displace",
+    "scaled": "Boolean of a scaled copy",
+    "offset": "Boolean of Solidify's inside",
 }
 HEADER = [
     "solid",

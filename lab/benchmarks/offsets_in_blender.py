@@ -21,6 +21,8 @@ def main() -> None:
     found = {
         "solidify": solidified(points, triangles, wall),
         "remesh": remeshed(points, triangles, wall),
+        "scaled": subtracted(points, triangles, scaled(points, wall), triangles),
+        "offset": subtracted(points, triangles, *solidified(points, triangles, wall)),
     }
     np.savez(
         Path(answer),
@@ -66,6 +68,31 @@ def remeshed(points, triangles, wall):
     displace = thing.modifiers.new("Displace", "DISPLACE")
     displace.strength, displace.mid_level = -wall, 0.0
     return shown(thing)
+
+
+def scaled(points, wall):
+    """The vertices of a copy scaled about the middle of its box, which loses the wall on each side."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = 0.5 * (low + high)
+    return middle + (points - middle) * (1.0 - 2.0 * wall / (high - low))
+
+
+def subtracted(points, triangles, inner, faces):
+    """The faces that a Boolean modifier with the exact solver leaves of an inner solid that it cuts out."""
+    thing, tool = made(points, triangles), made(inner, faces)
+    for mesh, value in ((thing.data, 0), (tool.data, 1)):
+        mesh.attributes.new("of_tool", "INT", "FACE").data.foreach_set(
+            "value", [value] * len(mesh.polygons)
+        )
+    modifier = thing.modifiers.new("Boolean", "BOOLEAN")
+    modifier.operation, modifier.solver, modifier.object = "DIFFERENCE", "EXACT", tool
+    modifier.use_self = True
+    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    of_tool = np.array([one.value for one in evaluated.attributes["of_tool"].data], bool)
+    evaluated.calc_loop_triangles()
+    polygon = np.array([t.polygon_index for t in evaluated.loop_triangles], np.intp)
+    places, pieces = shown(thing)
+    return places, pieces[of_tool[polygon]][:, ::-1]
 
 
 main()

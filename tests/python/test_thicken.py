@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.triangles import unit_normals
 from medial_axis.core.settings import (
@@ -18,6 +19,7 @@ from medial_axis.core.settings import (
     ThickenSettings,
     ThicknessSettings,
 )
+from medial_axis.core.solid import thickness
 from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thicken import thicken
 from medial_axis.core.solid.thickness import measure_thickness
@@ -203,6 +205,36 @@ def test_subdivide_leaves_other_faces():
     assert (face < len(plate[1])).sum() == len(plate[1]) < len(face) / 10
 
 
+def test_nothing_is_measured_twice(monkeypatch):
+    """Steps hand on what they measured by way of the cache, a second click measures nothing, and results stay."""
+    measured, once = [], thickness.lengths_by_faces
+
+    def counted(shape, settings, wanted, progress):
+        measured.append((shape.points.tobytes(), shape.triangles.tobytes(), wanted.edges))
+        return once(shape, settings, wanted, progress)
+
+    def click():
+        wanted = ThickenSettings(limit=LIMIT, subdivide=True)
+        return thicken(shape_of(turned(ramp(), 2)), Settings(samples=300), wanted)
+
+    monkeypatch.setattr(thickness, "lengths_by_faces", counted)
+    CACHE.clear()
+    found = click()
+    count = len(measured)
+    assert len(set(measured)) == count > 4
+    again = click()
+    assert len(measured) == count
+    monkeypatch.setattr(thickness, "kept_measurement", lambda key: None)
+    fresh = click()
+    assert len(measured) > 2 * count
+    for other in (again, fresh):
+        assert other.moves.tobytes() == found.moves.tobytes()
+        for name in ("of_vertices", "of_triangles"):
+            one, two = (getattr(x.after, name).tobytes() for x in (found, other))
+            assert one == two
+        assert other.warnings == found.warnings and other.left.share == found.left.share
+
+
 def test_sharp_edges_and_the_choice_of_faces_go_along():
     points, triangles = ramp()
     edge = np.sort(triangles[:1, :2], axis=1)
@@ -218,7 +250,7 @@ def test_sharp_edges_and_the_choice_of_faces_go_along():
 @pytest.mark.turn
 def test_files_and_figures(tmp_path, capsys):
     source = write_off(tmp_path / "ramp.off", ramp())
-    words = ["thicken", source, str(tmp_path / "thick.ply"), "--limit", "0.05", "--samples", "3000"]
+    words = ["thicken", source, str(tmp_path / "thick.ply"), "--limit", "0.05", "--samples", "1000"]
     assert cli.main([*words, "--quiet"]) == cli.INPUT
     assert "thin in part; Subdivide divides them" in capsys.readouterr().err
     ended = cli.main([*words, "--subdivide"])

@@ -26,12 +26,14 @@ from ..samples.outward_faces import outward_shape
 from ..samples.sample_spacing import mean_spacing
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
-from ..settings import Form, MidSurfaceSettings, Settings, Side
+from ..settings import Form, MidSurfaceSettings, Settings, Side, ThicknessSettings
 from ..small_matrices import length_of
 from ..united import united
 from .carried_sheets import CarriedSheets, carried
+from .cut_out_plates import cut_out_plate
 from .even_quads import even_quads
 from .even_triangles import even_triangles
+from .face_lengths import are_enough
 from .few_faces import few_faces
 from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
@@ -152,6 +154,10 @@ def mid_surface(
     if not len(thin.triangles):
         raise _nothing_thin(wanted)
     sheets = _welded(carried(thin, _walls(shape, settings)))
+    plate = cut_out_plate(shape, sheets)
+    if plate is not None and are_enough(shape, settings, ThicknessSettings()):
+        sheets = _welded(plate)
+        thin = replace(thin, parts=int(sheets.part.max()) + 1)
     made = _simplified(sheets, wanted, progress)
     return _with_thickness(made, sheets, thin, shape, found, wanted.keep_thick, start)
 

@@ -68,9 +68,24 @@ def measure_thickness(
     """
     settings = replace(settings, side=wanted.side)
     start, progress, shape = time.perf_counter(), progress or Progress(), outward_shape(shape)
+    key = _key_by_faces(shape, settings, wanted)
+    if kept := kept_measurement(key):
+        seconds = time.perf_counter() - start
+        again = replace(kept, shape=shape, settings=wanted, seconds=seconds)
+        return replace(again, warnings=(*reading_warnings(shape), *_warnings(again)))
     if are_enough(shape, settings, wanted):
-        return _kept(_by_faces(shape, settings, wanted, progress, start))
+        return _kept(replace(_by_faces(shape, settings, wanted, progress, start), key=key))
     return _kept(_by_axis(shape, settings, wanted, progress, limit))
+
+
+def _key_by_faces(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> str:
+    """The name of a measurement by the faces, of all that it depends on."""
+    return key_of(
+        "thickness by faces",
+        (shape.points, shape.triangles, shape.sharp_edges, shape.shaded_smooth, shape.of_samples),
+        astuple(settings),
+        astuple(replace(wanted, limit=0.0)),
+    )
 
 
 def _kept(found: Measurement) -> Measurement:
@@ -104,12 +119,6 @@ def _by_faces(
         warnings=(),
         seconds=time.perf_counter() - start,
         walls=no_close_walls(shape),
-        key=key_of(
-            "thickness by faces",
-            (shape.points, shape.triangles, shape.sharp_edges, shape.shaded_smooth),
-            astuple(settings),
-            astuple(replace(wanted, limit=0.0)),
-        ),
     )
     return replace(found, warnings=(*reading_warnings(shape), *_warnings(found)))
 

@@ -47,7 +47,7 @@ SKELETON, THICKNESS, SETTINGS = (150, 231), (150, 257), (150, 309)
 AUTO_UPDATE = (62, 231)  # in the header of the panel Result
 SAMPLING = (150, 440)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
-MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
+MEASURE_THICKNESS, THICKEN, DIVIDE = (102, 405), (102, 521), (102, 542)
 UNSOLIDIFY, HOLLOW = (102, 494), (102, 520)  # where nothing is thinner than the limit
 DRAIN = (255, 675)  # on the screen, in Adjust Last Operation
 REBUILD_SOLID, OTHERS = (102, 339), (49, 339)
@@ -992,7 +992,10 @@ def scene_hollow():
 
 
 def scene_unsolidify():
-    """A T as its middle surface, which the panel's button makes and its modifier thickens again; undo takes it off."""
+    """A T as its middle surface, which the panel's button makes and its modifier thickens again; undo takes it off.
+
+    Then a plate that is thin at one end: another button divides its faces and thickens it, and undo takes both off.
+    """
     profile_t()
     yield from measured(limit=0.05)
     look("1-measured")
@@ -1009,6 +1012,32 @@ def scene_unsolidify():
     yield from key("ctrl+z")
     yield from until(lambda: "T Mid-Surface" not in bpy.data.objects)
     assert "T" in bpy.data.objects
+
+    wedge()
+    bpy.context.scene.medial_axis_thickness.limit = 0.05
+    yield from click(*at(MEASURE_THICKNESS))
+    yield from until(
+        lambda: addon("bridge.thickness_object").carrier_of(bpy.data.objects["Wedge"]) is not None
+    )
+    look("4-thin-at-one-end")
+    yield from click(*at(DIVIDE))
+    yield from until(lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
+    look("5-divided-and-thicker")
+    thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness_object")
+    assert len(thing.data.polygons) > 300 and of.carrier_of(thing)[of.SHARE] < 0.02
+    yield from key("ctrl+z")
+    yield from until(lambda: not bpy.data.objects["Wedge"].modifiers)
+    assert len(bpy.data.objects["Wedge"].data.polygons) == 6
+
+
+def wedge():
+    """A plate of six faces, which gets thicker from 0.02 to 0.1."""
+    bpy.data.batch_remove(bpy.data.objects)
+    points = [(x, y, z * (0.03 + 0.02 * x)) for z in (-1, 1) for x in (-1, 1) for y in (-1, 1)]
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    select(link("Wedge", points, sides))
+    frame_selected()
+    bpy.ops.ed.undo_push(message="Scene is set")
 
 
 def profile_t():
