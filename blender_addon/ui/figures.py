@@ -160,11 +160,13 @@ def why_outdated(context, result):
 
 
 def _draw_legend(context, layout, thing):
-    """The range of its colours, where it is coloured and one sees that."""
+    """The range of its colours, where it is coloured; pale while no one sees them, so that no row below moves."""
     found = colour_range(thing)
-    if found is None or not shows_colours(context.space_data):
+    if found is None:
         return
     name, start, end = found
+    layout = layout.column()
+    layout.active = shows_colours(context.space_data)
     if name == report_object.EPSILON.name:
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
     else:

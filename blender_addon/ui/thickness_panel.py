@@ -73,8 +73,9 @@ def _draw_found(context, layout, carrier):
         button = layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
         button.wall = context.scene.medial_axis_thickness.limit
     draw_colours(context, layout)
-    if shows_colours(context.space_data):
-        _draw_legend(context, layout, carrier)
+    legend = layout.column()  # always there, so that no row below moves
+    legend.active = shows_colours(context.space_data)
+    _draw_legend(context, legend, carrier)
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
         draw_wrapped(context, layout, warning, "ERROR")

@@ -30,6 +30,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "sliders_with_escape": True,
     "auto_update": True,
     "steady_panels": True,
+    "panels_in_place": True,
     "scan": True,
     "sampling": True,
     "what_comes_after": True,
