@@ -49,7 +49,7 @@ def build(arguments: argparse.Namespace) -> None:
 
 def pack_modules(arguments: argparse.Namespace) -> None:
     needs.require(needs.PACK)
-    pack.pack(find_blender(arguments.blender))
+    pack.pack(find_blender(arguments.blender), with_wheels=arguments.wheels)
 
 
 def repository(arguments: argparse.Namespace) -> None:
@@ -129,7 +129,8 @@ with --linux-arm64 those for Linux on arm64, by zig, which comes from Python's p
 a commit that is not the tag of a release carries the commit in its version: 0.2.0+g1a2b3c4d."""
 
 PACK_HELP = """Makes the zips of `build` from the modules that lie in blender_addon/lib, which may come from other
-machines: one zip for all systems, and for the extensions platform one for each system that has a module."""
+machines: one zip for all systems, and for the extensions platform one for each system that has a module. With --wheels
+dist/wheels gets the library for Python as a wheel per module, and zips for Blender 4.2 and newer with wheels inside."""
 
 REPOSITORY_HELP = """Copies the zips for the extensions platform, which `build` made, into a folder, and lets a Blender
 of 4.2 or newer write index.json and index.html beside them. The folder is for any web server. Without such a Blender
@@ -179,7 +180,8 @@ def parse(words: list[str]) -> argparse.Namespace:
         return command
 
     add_build_options(add(build, "compile the native modules and pack the add-on", BUILD_HELP))
-    add(pack_modules, "pack the modules that lie in blender_addon/lib", PACK_HELP, "pack")
+    packing = add(pack_modules, "pack the modules that lie in blender_addon/lib", PACK_HELP, "pack")
+    packing.add_argument("--wheels", action="store_true", help="wheels and zips of them, too")
     publishing = add(repository, "the built zips for a web server", REPOSITORY_HELP)
     output = {"default": paths.DIST / "repository", "metavar": "FOLDER"}
     publishing.add_argument("--output", **output, help="default: ./dist/repository")

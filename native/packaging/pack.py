@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import io
 import os
+import shutil
 import tempfile
 import zipfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import licences, macho, node_groups, paths
+from . import licences, macho, node_groups, paths, wheels
 from .terminal import python_that, run, say
 
 MODULES = "lib/_medial."  # how the names of compiled modules begin
@@ -25,10 +27,11 @@ PLATFORMS = {
 _SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".yaml"}
 
 
-def pack(blender: Path | str = "blender", local: bool = False) -> Path:
+def pack(blender: Path | str = "blender", local: bool = False, with_wheels: bool = False) -> Path:
     """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
     platform, which wants one per system and the files at its top; `local` leaves these out. Same files, same bytes.
-    `blender` writes the library of node groups. Returns the first."""
+    `with_wheels` writes wheels, and zips that hold them, into a folder of their own. `blender` writes the library of
+    node groups. Returns the first."""
     say("Packing the add-on")
     paths.DIST.mkdir(exist_ok=True)
     files = contents(blender)
@@ -39,6 +42,8 @@ def pack(blender: Path | str = "blender", local: bool = False) -> Path:
         archive_for(platform).unlink(missing_ok=True)
         if not local and (own := for_platform(files, platform)):
             write_zip(archive_for(platform), own)
+    if with_wheels:
+        write_wheels(files, paths.DIST / "wheels")
     abis = sorted(name.split(".")[1] for name in files if name.startswith(MODULES))
     print(f"{len(files)} files; compiled for {', '.join(abis) or 'no Python'}")
     return archive
@@ -141,13 +146,37 @@ def _module_for(platform: str, name: str, module: bytes) -> bytes | None:
     return images.get(processor)
 
 
+def write_wheels(files: dict[str, bytes], folder: Path) -> None:
+    """Replace the folder by a wheel per module, and a zip per system that holds its wheels in place of modules."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for platform in PLATFORMS:
+        own = for_platform(files, platform)
+        made = {}
+        for module in (name for name in own if name.startswith(MODULES)):
+            name, contents = wheels.wheel(own, module, platform)
+            made[name] = zipped(contents)
+            (folder / name).write_bytes(made[name])
+        if made:
+            archive = folder / archive_for(platform).name
+            write_zip(archive, wheels.in_place_of_modules(own, made))
+            print(f"{paths.shown(archive)}: {archive.stat().st_size / 1e6:.1f} MB")
+
+
 def write_zip(target: Path, files: dict[str, bytes]) -> None:
-    """A zip with the same bytes for the same files; renamed at the end, so it is whole or not there."""
+    """A zip, renamed at the end, so that it is whole or not there."""
     fresh = target.with_suffix(".new")
-    with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    fresh.write_bytes(zipped(files))
+    os.replace(fresh, target)
+
+
+def zipped(files: dict[str, bytes]) -> bytes:
+    """A zip with the same bytes for the same files."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, content in sorted(files.items()):
             entry = zipfile.ZipInfo(name)  # with the same date always
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, content)
-    os.replace(fresh, target)
+    return stream.getvalue()

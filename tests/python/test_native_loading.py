@@ -115,3 +115,38 @@ def test_message_of_a_broken_file_names_the_file(file, tmp_path, copy):
     )
     assert " ".join(said).startswith("Expected a compiled module for")
     assert str(tmp_path / Path(file).name) in " ".join(said) and "/proc/self" not in said
+
+
+@pytest.mark.parametrize("taken", [True, False])
+def test_module_of_a_wheel_is_taken_where_there_is_none_if_it_has_the_same_version(
+    file, tmp_path, taken
+):
+    """Blender installs an extension's wheels into a folder of all extensions, where older ones may lie."""
+    from medial_axis import __version__
+
+    version = __version__ if taken else "0.0.1"
+    info = tmp_path / f"medial_axis-{version}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(
+        f"Metadata-Version: 2.1\nName: medial-axis\nVersion: {version}\n"
+    )
+    library = tmp_path / "medial_axis" / "lib"
+    library.mkdir(parents=True)
+    module = library / Path(file).name
+    module.write_bytes(Path(file).read_bytes())
+    said = play(
+        f"""
+        from pathlib import Path
+        native.LIB = Path({str(tmp_path / "none")!r})
+        assert native.problem().startswith("Expected the compiled module")
+        sys.path.append({str(tmp_path)!r})
+        try:
+            print(native.load().__file__)
+        except NativeModuleError as error:
+            print(error)
+        """
+    )
+    if taken:
+        assert said == [str(module)]
+    else:
+        assert " ".join(said).startswith("Expected the compiled module for")

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The compiled module `_medial` is loaded when it is first needed; `lib/` has one file per Python ABI."""
+"""The compiled module `_medial` is loaded when it is first needed; `lib/` has one file per Python ABI.
+
+Where it has none for this Python, the module of the library's wheel is taken, if that has the same version.
+"""
 
 from __future__ import annotations
 
@@ -71,6 +74,8 @@ def _imported(name: str) -> ModuleType:
             return _imported_from_memory(name, original)
         except (OSError, ImportError):
             pass  # the import below reports an error of the file itself
+    if original and original.parent != LIB:
+        return _imported_from(name, str(original))
     return importlib.import_module(name)
 
 
@@ -79,14 +84,17 @@ def _imported_from_memory(name: str, original: Path) -> ModuleType:
     try:
         with open(copy, "wb", closefd=False) as stream:
             stream.write(original.read_bytes())
-        path = f"/proc/self/fd/{copy}"
-        loader = ExtensionFileLoader(name, path)
-        spec = spec_from_file_location(name, path, loader=loader)
-        assert spec is not None  # every loader has one
-        module = module_from_spec(spec)
-        loader.exec_module(module)
+        return _imported_from(name, f"/proc/self/fd/{copy}")
     finally:
         os.close(copy)
+
+
+def _imported_from(name: str, path: str) -> ModuleType:
+    loader = ExtensionFileLoader(name, path)
+    spec = spec_from_file_location(name, path, loader=loader)
+    assert spec is not None  # every loader has one
+    module = module_from_spec(spec)
+    loader.exec_module(module)
     sys.modules[name] = module
     return module
 
@@ -122,8 +130,27 @@ def problem() -> str:
 
 def file() -> Path | None:
     """Return the compiled module that `load` takes, or None."""
-    files = (LIB / f"{NAME}{suffix}" for suffix in EXTENSION_SUFFIXES)
+    return _file_in(LIB) or _file_in(_folder_of_wheel())
+
+
+def _file_in(folder: Path | None) -> Path | None:
+    files = (folder / f"{NAME}{suffix}" for suffix in EXTENSION_SUFFIXES) if folder else ()
     return next((file for file in files if file.is_file()), None)
+
+
+def _folder_of_wheel() -> Path | None:
+    """Return the folder of compiled modules in this library's wheel, from which Blender installs it for an extension.
+
+    A wheel of another version is not taken, because its functions may be others.
+    """
+    from importlib import metadata  # loaded only where lib/ has no module
+
+    try:
+        wheel = metadata.distribution("medial-axis")
+    except metadata.PackageNotFoundError:
+        return None
+    version = getattr(sys.modules[_package], "__version__", None)
+    return Path(str(wheel.locate_file("medial_axis/lib"))) if wheel.version == version else None
 
 
 def expected_abi() -> str:
