@@ -5,7 +5,7 @@
 
 Reduce and the whole solid: mean and largest distance between the faces and the solid of balls, cones and slabs, in
 percent of the diagonal. Balls: percent of the solid that as many balls cover. Curve: mean and largest distance of its
-vertices from the exact axis, in vertices from the exact axis, in percent of the diagonal, and its length. Thickness: mean and largest error in percent
+vertices from the exact axis, in percent of the diagonal, and its length. Thickness: mean and largest error in percent
 of the exact length where balls lie between walls, as it is measured and by the crisp balls that come nearest to the
 places. A name with a dot is a file of the data folder.
 """
