@@ -6,8 +6,8 @@
 Reduce and the whole solid: mean and largest distance between the faces and the solid of balls, cones and slabs, in
 percent of the diagonal. Balls: percent of the solid that as many balls cover. Curve: mean and largest distance of its
 vertices from the exact axis, in percent of the diagonal, and its length. Thickness: mean and largest error in percent
-of the exact length; its balls are not those of the axis, so there is one value only. A name with a dot is a file of the
-data folder.
+of the exact length where balls lie between walls, as it is measured and by the crisp balls that come nearest to the
+places. A name with a dot is a file of the data folder.
 """
 
 import argparse
@@ -122,15 +122,25 @@ def curve(subject, places, wires):
     return f"{percent(off.mean(), off.max(), subject.diagonal)}, length {length:.2f}"
 
 
-def lengths(subject, _axes, _vertices):
+def lengths(subject, axes, _):
     if subject.solid is None:
         return ["", ""]
     found = measure_thickness(subject.shape, subject.settings(), ThicknessSettings())
     at = found.surface.points[: found.samples]
     exact = 2 * radii(subject.solid, at, subject.diagonal)
     known = found.measured & (exact > 1e-3 * subject.diagonal)
-    off = np.abs(found.surface.lengths[: found.samples] - exact)[known] / exact[known]
-    return [percent(off.mean(), off.max(), 1), ""]
+    measured = (found.surface.lengths[: found.samples], nearest_balls(axes[1], at))
+    off = [np.abs(values - exact)[known] / exact[known] for values in measured]
+    return [percent(errors.mean(), errors.max(), 1) for errors in off]
+
+
+def nearest_balls(axis, at):
+    """The diameters of the balls of an axis that come nearest to some places."""
+    nearest = [
+        np.argmin(np.abs(np.linalg.norm(axis.vertices - place, axis=1) - axis.radius))
+        for place in at
+    ]
+    return 2 * axis.radius[nearest]
 
 
 def radii(solid, at, diagonal):

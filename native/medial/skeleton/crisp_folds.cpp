@@ -38,7 +38,10 @@ class Unfolder {
     const int64_t left = folded_facets(suspects);
     if (left == 0) return;
     const Places before{c_.made.position, c_.made.radius, c_.made.place, c_.walls};
-    for (const Stage& stage : kWide) take_rounds(stage, suspects);
+    for (const Stage& stage : kWide) {
+      if (folded_facets(suspects) > left) break;  // still wider steps would fold more
+      take_rounds(stage, suspects);
+    }
     if (folded_facets(suspects) < left) return;
     c_.made.position = before.position;
     c_.made.radius = before.radius;
@@ -175,8 +178,11 @@ class Unfolder {
   Touch nearly_placed(int32_t v, const Vec3& here) const {
     Touch best;
     double within = kAside * c_.spacing_at(v);
+    std::vector<Walls> tried;  // the same walls again would give the same ball
     const auto take = [&](const Walls& walls) {
       if (walls.count != 2) return;
+      if (std::find(tried.begin(), tried.end(), walls) != tried.end()) return;
+      tried.push_back(walls);
       const Touch found = nearly_touching(c_, v, walls, here, within);
       if (!(found.radius > 0)) return;
       best = found;
