@@ -23,7 +23,7 @@ def main():
     words = parser(__doc__)
     words.add_argument("meshes", nargs="+", help="names in the folder of real meshes, or paths")
     words.add_argument("--counts", type=int, nargs="+", default=[50, 100, 200])
-    words.add_argument("--tolerances", type=float, nargs="*", default=[], help="% of the diagonal")
+    words.add_argument("--tolerances", type=float, nargs="*", default=[], help="%% of the diagonal")
     words.add_argument("--balls", nargs="*", default=[], help=".ma files to judge instead of ours")
     words.add_argument("--greedy", action="store_true", help="without Refine")
     words.add_argument("--capsules", action="store_true", help="capsules instead of balls")

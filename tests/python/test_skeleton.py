@@ -23,6 +23,7 @@ from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.chords import keep_inside, kept_inside
 from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.skeleton.middle import lead_through_middle
 from medial_axis.core.skeleton.names import names_of
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
@@ -882,12 +883,43 @@ def test_radii_of_a_torus_are_those_of_its_tube():
     np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
 
 
+def test_lines_are_in_the_middle_of_a_body(data_file):
+    """A ball that touches the surface where it is nearest hardly grows; 15 % had room before."""
+    shape, _ = read_shape(data_file("spot_low.obj"))
+    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
+    places, _ = places_of(found, steps=3)
+    room = distance_to_faces(places, shape)
+    steps = 1e-3 * np.mean(room) * np.eye(3)
+    grown = [
+        distance_to_faces(places + s, shape) - distance_to_faces(places - s, shape) for s in steps
+    ]
+    way = np.array(grown).T
+    way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+    larger = distance_to_faces(places + 0.05 * room[:, None] * way, shape) > 1.049 * room
+    assert larger.mean() < 0.05
+
+
 class Between:
     """The distance from a bent wall: the solid is between two circles round the origin, of radii 0.9 and 1.1."""
 
     def __call__(self, places):
         away = np.linalg.norm(places, axis=1)
         return np.minimum(np.abs(away - 0.9), np.abs(away - 1.1))
+
+
+def test_points_move_to_the_middle_between_walls():
+    """Points beside the circle between the walls, and jagged: they move onto it; both ends stay."""
+    turn = np.linspace(0.0, np.pi, 61)
+    away = 1.0 + 0.03 * np.where(np.arange(61) % 2, 1.0, 0.4)
+    net = straight_net(np.column_stack((away * np.cos(turn), away * np.sin(turn), 0 * turn)))
+    ends = net.points[[0, -1]].copy()
+    lead_through_middle(net, Between())
+    assert np.array_equal(net.points[[0, -1]], ends)
+    inner = net.points[1:-1]
+    np.testing.assert_allclose(np.linalg.norm(inner, axis=1), 1.0, atol=2e-4)
+    np.testing.assert_allclose(net.radius[1:-1], 0.1, atol=2e-4)
+    turned = np.abs(np.diff(np.unwrap(np.arctan2(*np.diff(inner[:, :2], axis=0).T))))
+    assert turned.max() < 0.2  # half a step of the circle is 0.03, and a tooth before was 0.6
 
 
 @pytest.mark.parametrize("count", [9, 40])

@@ -29,6 +29,7 @@ from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
 from .forks import draw_forks
 from .inscribe import inscribe
+from .middle import lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
 from .simplify import kept_points
@@ -128,7 +129,7 @@ def compute_skeleton(
         net, owner, sheets, loops = _net_of_curve(chosen, shown, wanted, begun.progress)
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
-    inscribe(net, depth)
+    lead_through_middle(net, depth)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_whole(net, names))[0])
     mirrored = wanted.mirror and make_symmetric(net, plane)

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module leads the branches of a net through the middle of the solid, along smooth lines.
+
+The nearest place of the surface says in which direction the middle is: a point moves straight away from that place, as
+long as no other place becomes nearer. There it is the centre of the largest ball that touches the place. Between such
+moves the branches become smooth lines. Tips stay: they are centres of such balls.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
+from .inscribe import inscribe
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from ..curves.net import Net
+
+_ROUNDS = 2  # so often branches become smooth lines, and their points move
+_MOVED = 0.5  # a point moves by at most so many radii at once, and so stays in the ball around it
+_AHEAD = 1e-3  # in so many radii the distance is looked at to learn where the nearest place is
+_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
+_HALVED = 10  # so often the range of a move is halved
+_ONE_SIDE = (
+    0.5  # where the distance grows by a smaller share of the way, nearest places lie on two sides
+)
+
+
+def lead_through_middle(
+    net: Net, depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> None:
+    """Move the points of a net to the middle of the solid; every radius becomes the distance to the surface.
+
+    Parameters
+    ----------
+    net : Net
+    depth : callable
+        The distance of (n, 3) places from the surface.
+    """
+    inscribe(net, depth)
+    tips = net.tips()
+    rows = np.setdiff1d(np.concatenate([*net.branches.values(), []]).astype(np.int64), tips)
+    for _ in range(_ROUNDS):
+        _smooth(net)
+        net.points[rows] = _middles(net.points[rows], depth)
+        inscribe(net, depth)
+
+
+def _smooth(net: Net) -> None:
+    """Make the branches smooth between their ends; a point that would leave the middle half of its ball stays."""
+    names = [name for name, chain in net.branches.items() if len(chain) > 2 and net.length(name)]
+    chains = [np.array(net.branches[name]) for name in names]
+    lines = smooth_between(
+        [Course(net.points[rows], net.radius[rows], rows[0] == rows[-1]) for rows in chains]
+    )
+    for rows, (share, places) in zip(chains, lines, strict=True):
+        marks = marks_of(net.points[rows])
+        smooth = at_marks(marks / marks[-1], share, places)
+        moved = np.linalg.norm(smooth - net.points[rows], axis=1)
+        free = moved < _MOVED * net.radius[rows]
+        free[[0, -1]] &= rows[0] == rows[-1] and len(net.at[rows[0]]) == 2
+        net.points[rows[free]] = smooth[free]
+        net.radius[rows[free]] -= moved[free]  # a ball that certainly fits
+
+
+def _middles(
+    places: NDArray[np.float64], depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> NDArray[np.float64]:
+    """Return the centres of the largest balls that touch the surface where it is nearest to places."""
+    room = depth(places)
+    way = _away(places, room, depth)
+    low, high = np.zeros(len(places)), _MOVED * room
+    for _ in range(_HALVED):
+        far = (low + high) / 2.0
+        fits = depth(places + far[:, None] * way) >= (1.0 - _AS_FAR) * (room + far)
+        low, high = np.where(fits, far, low), np.where(fits, high, far)
+    return places + low[:, None] * way
+
+
+def _away(
+    places: NDArray[np.float64],
+    room: NDArray[np.float64],
+    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> NDArray[np.float64]:
+    """Return unit vectors away from the nearest places of the surface; 0 where there are some on two sides."""
+    step = _AHEAD * room
+    steps = step[:, None, None] * np.eye(3)
+    ahead, behind = (
+        depth((places[:, None] + sign * steps).reshape(-1, 3)).reshape(-1, 3) for sign in (1, -1)
+    )
+    grown = (ahead - behind) / np.maximum(2.0 * step, np.finfo(float).tiny)[:, None]
+    size = np.linalg.norm(grown, axis=1)
+    return (
+        np.where(size > _ONE_SIDE, 1.0, 0.0)[:, None] * grown / np.maximum(size, _ONE_SIDE)[:, None]
+    )
