@@ -55,7 +55,7 @@ def _plate(shape: Shape, across: NDArray[np.float64]) -> CarriedSheets | None:
     """The middle of a plate whose flat faces look along a unit vector, about, and against it."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     turned = dot(normals, across[None])
-    flat = np.sign(turned) * (np.abs(turned) > _ALONG)
+    flat = np.where(np.abs(turned) > _ALONG, np.sign(turned), 0.0)
     across = _direction(normals, doubled * flat)
     heights = dot(shape.points, across[None])
     at = heights[shape.triangles]
