@@ -788,8 +788,8 @@ MUTATIONS = (
     ),
     Mutation(
         "reduce/cone_and_slab.cpp",
-        "(at + height * k / std::sqrt(1 - k * k)) / whole",
-        "(at - height * k / std::sqrt(1 - k * k)) / whole",
+        "(at + height * cone.ratio / cone.flat) / cone.whole",
+        "(at - height * cone.ratio / cone.flat) / cone.whole",
         "cones are met on the wrong side of the foot",
         python=("test_reduce.py",),
     ),

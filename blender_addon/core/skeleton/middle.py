@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
+from ..small_matrices import dot
 from .inscribe import inscribe
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
+    from ..curves.depth import Depth
     from ..curves.net import Net
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
@@ -27,21 +27,17 @@ _MOVED = 0.5  # a point moves by at most so many radii at once, and so stays in 
 _AHEAD = 1e-3  # in so many radii the distance is looked at to learn where the nearest place is
 _AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
 _HALVED = 10  # so often the range of a move is halved
-_ONE_SIDE = (
-    0.5  # where the distance grows by a smaller share of the way, nearest places lie on two sides
-)
+_ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides
 
 
-def lead_through_middle(
-    net: Net, depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-) -> None:
+def lead_through_middle(net: Net, depth: Depth) -> None:
     """Move the points of a net to the middle of the solid; every radius becomes the distance to the surface.
 
     Parameters
     ----------
     net : Net
-    depth : callable
-        The distance of (n, 3) places from the surface.
+    depth : Depth
+        The distance of places from the surface.
     """
     inscribe(net, depth)
     tips = net.tips()
@@ -62,16 +58,14 @@ def _smooth(net: Net) -> None:
     for rows, (share, places) in zip(chains, lines, strict=True):
         marks = marks_of(net.points[rows])
         smooth = at_marks(marks / marks[-1], share, places)
-        moved = np.linalg.norm(smooth - net.points[rows], axis=1)
+        moved = _lengths(smooth - net.points[rows])
         free = moved < _MOVED * net.radius[rows]
         free[[0, -1]] &= rows[0] == rows[-1] and len(net.at[rows[0]]) == 2
         net.points[rows[free]] = smooth[free]
         net.radius[rows[free]] -= moved[free]  # a ball that certainly fits
 
 
-def _middles(
-    places: NDArray[np.float64], depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-) -> NDArray[np.float64]:
+def _middles(places: NDArray[np.float64], depth: Depth) -> NDArray[np.float64]:
     """Return the centres of the largest balls that touch the surface where it is nearest to places."""
     room = depth(places)
     way = _away(places, room, depth)
@@ -84,9 +78,7 @@ def _middles(
 
 
 def _away(
-    places: NDArray[np.float64],
-    room: NDArray[np.float64],
-    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    places: NDArray[np.float64], room: NDArray[np.float64], depth: Depth
 ) -> NDArray[np.float64]:
     """Return unit vectors away from the nearest places of the surface; 0 where there are some on two sides."""
     step = _AHEAD * room
@@ -95,7 +87,10 @@ def _away(
         depth((places[:, None] + sign * steps).reshape(-1, 3)).reshape(-1, 3) for sign in (1, -1)
     )
     grown = (ahead - behind) / np.maximum(2.0 * step, np.finfo(float).tiny)[:, None]
-    size = np.linalg.norm(grown, axis=1)
-    return (
-        np.where(size > _ONE_SIDE, 1.0, 0.0)[:, None] * grown / np.maximum(size, _ONE_SIDE)[:, None]
-    )
+    size = _lengths(grown)
+    share = (size > _ONE_SIDE) / np.maximum(size, _ONE_SIDE)
+    return share[:, None] * grown
+
+
+def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.sqrt(dot(vectors, vectors))
