@@ -286,8 +286,10 @@ def test_a_gap_is_no_wall():
 
 def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
     """Where the axis and the rays find nothing: here by taking the walls away."""
+    from medial_axis.core.machine.cache import CACHE
     from medial_axis.core.solid import close_walls, thickness
 
+    CACHE.clear()  # another test may have measured this plate by its faces
     nothing = lambda shape, *_: close_walls.no_close_walls(shape)
     monkeypatch.setattr(thickness, "close_walls", nothing)
     monkeypatch.setattr(thickness, "are_enough", lambda *_: False)
