@@ -86,12 +86,12 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
                 [own, np.full(alone, -1 if attribute.field == "curve" else 0, np.int32)]
             )
         data.foreach_set(attribute.key, own)
+    sharp = np.concatenate([structure.seam == SEAM, np.zeros(alone, bool)])
     if hasattr(mesh, "shade_smooth"):  # from 4.1
         mesh.shade_smooth()
-    else:
+    else:  # normals of corners, which auto smooth asks for, are half of Blender's evaluation
         mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
-        mesh.use_auto_smooth, mesh.auto_smooth_angle = True, np.pi
-    sharp = np.concatenate([structure.seam == SEAM, np.zeros(alone, bool)])
+        mesh.use_auto_smooth, mesh.auto_smooth_angle = bool(sharp.any()), np.pi
     mesh.edges.foreach_set("use_edge_sharp", sharp)
     mesh.update()
 

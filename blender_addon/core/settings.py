@@ -220,7 +220,8 @@ class Settings(Options):
     crisp: bool = switch(
         "Crisp",
         "Balls touch the faces themselves, and sheets reach the sharp edges; off: balls touch the "
-        "samples of the faces. It matters only where the faces decide what is inside",
+        "samples of the faces, which takes less time, most of all on smooth bodies. It matters only "
+        "where the faces decide what is inside",
         default=True,
     )
     theta: float = number(

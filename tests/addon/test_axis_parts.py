@@ -58,6 +58,17 @@ def test_sheets_are_smooth_and_seams_sharp(result):
         assert mesh.use_auto_smooth
 
 
+def test_a_sheet_without_seams_needs_no_normals_of_corners():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    source = bpy.context.object
+    source.scale = (3.0, 2.0, 1.0)
+    bpy.context.view_layer.update()
+    compute(sampling="VERTICES", form="CLEAN", crisp=False)
+    mesh = result_of(source).data
+    assert len(mesh.polygons) and all(polygon.use_smooth for polygon in mesh.polygons)
+    assert not sharp_edges(mesh).any() and not getattr(mesh, "use_auto_smooth", False)
+
+
 def test_the_facets_of_a_sheet_look_the_same_way(result):
     mesh, part = result.data, attribute(result.data, "ma_part")
     normals = normals_of(mesh)
