@@ -40,7 +40,7 @@ inline void parallel_chunks(int64_t count, const Run& run,
         if (begin >= count || stop.load(std::memory_order_relaxed)) return;
         throw_if_cancelled(run.progress);
         body(begin, std::min(begin + grain, count), worker);
-        if (worker == 0) {
+        if (worker == 0 && run.moves_bar) {
           advance(run.progress, static_cast<double>(begin) / static_cast<double>(count));
         }
       }

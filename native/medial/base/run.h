@@ -13,6 +13,7 @@ struct Run {
   int threads = 1;
   Progress* progress = nullptr;
   Arena* arena = nullptr;
+  bool moves_bar = true;  // whether loops tell how far they are; cancelling always stops them
 };
 
 // Makes an array whose elements are uninitialised, or all have the same value.

@@ -39,7 +39,7 @@ CrispState::CrispState(const InnerComplex& of, const Triangulation& cells,
       triangulation(cells),
       samples(on_faces),
       sine(sines),
-      run{whole.threads, nullptr, whole.arena},
+      run{whole.threads, whole.progress, whole.arena, false},
       progress(whole.progress) {
   find_facets(values);
   find_rims();
