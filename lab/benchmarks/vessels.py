@@ -76,7 +76,7 @@ print("SECONDS", resource.getrusage(resource.RUSAGE_SELF).ru_utime)
 
 
 def vessels(python: str) -> Tree:
-    """The tree that svv grows; radii are scaled together, so what Murray's law says of them stays."""
+    """Return what svv grows; radii are scaled together, so what Murray's law says of them stays."""
     with tempfile.TemporaryDirectory() as folder:
         found = Path(folder, "found.npy")
         words = [python, "-c", IN_SVV, str(found), str(VESSELS)]

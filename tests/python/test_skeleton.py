@@ -955,6 +955,21 @@ def test_edges_that_no_ball_mends_are_counted():
     assert sentence.startswith("1 edges of the skeleton leave the solid")
 
 
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_tip_beyond_a_crease_is_reached_from_an_earlier_point(way):
+    """The line runs past the place below its tip, and from its last point only a way through the hollow leads there."""
+    turn, high = np.append(np.linspace(0.0, np.pi, 40), 1.7), np.append(np.zeros(40), 0.6)
+    along = np.cos(high)
+    points = np.column_stack((along * np.cos(turn), along * np.sin(turn), np.sin(high)))
+    net = straight_net(points[::way])
+    assert keep_inside(net, Between()) == 0
+    (chain,) = net.branches.values()
+    last, before = net.points[chain[::way]][[-1, -2]]
+    assert np.array_equal(last, points[-1]) and before[2] == 0.0
+    assert np.linalg.norm(last + before) / 2 > 0.9
+    assert 20 < len(chain) < 35 and net.load.sum() == 41 and len(net.tips()) == 2
+
+
 def test_edges_that_stay_inside_are_measured_once():
     asked = []
 

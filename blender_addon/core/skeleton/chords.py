@@ -70,33 +70,58 @@ def kept_inside(
 def keep_inside(net: Net, depth: Depth) -> int:
     """Add points to a net where the way between two neighbours leaves the solid; radii are distances to the surface.
 
+    A way to a tip may instead begin at an earlier point of its branch.
+
     Returns
     -------
     outside : int
         So many edges still leave it: no ball between their ends overlaps those at both.
     """
     edges = [(name, *pair) for name, chain in net.branches.items() for pair in pairwise(chain)]
-    outside = 0
+    lost: list[tuple[int, int, int]] = []
     for _ in range(_ROUNDS):
-        edges, lost = _split(net, edges, depth)
-        outside += lost
-    return outside + len(_leaving(net, edges, depth))
+        edges, missed = _split(net, edges, depth)
+        lost += missed
+    lost += _leaving(net, edges, depth)
+    return sum(not _turned_back(net, edge, depth) for edge in lost)
 
 
 def _split(
     net: Net, edges: list[tuple[int, int, int]], depth: Depth
-) -> tuple[list[tuple[int, int, int]], int]:
-    """Split the edges that leave the solid, and return the halves, and the number of those that cannot be split."""
-    halves, lost = [], 0
+) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
+    """Split the edges that leave the solid, and return the halves, and those that cannot be split."""
+    halves, lost = [], []
     for name, a, b in _leaving(net, edges, depth):
         place = _between(net.points[[a, b]], net.radius[[a, b]], depth)
         if place is None:
-            lost += 1
+            lost.append((name, a, b))
             continue
         at = list(pairwise(net.branches[name])).index((a, b)) + 1
         middle = net.insert(name, at, place, float(depth(place[None])[0]))
         halves += [(name, a, middle), (name, middle, b)]
     return halves, lost
+
+
+def _turned_back(net: Net, edge: tuple[int, int, int], depth: Depth) -> bool:
+    """Lead a branch to its tip from the last point from which the way stays inside; its first half stays.
+
+    Returns whether the edge is gone. A branch may have passed a crease before it ended on the other side.
+    """
+    name, *ends = edge
+    chain = net.branches[name]
+    if not set(ends) <= set(chain):
+        return True
+    tip = next((node for node in net.ends_free(name) if node in ends), None)
+    if tip is None:
+        return False
+    chain = chain if chain[-1] == tip else chain[::-1]
+    rows = np.array(chain[len(chain) // 2 : -1][::-1], np.intp)
+    to_tip = np.column_stack((rows, np.full(len(rows), tip)))
+    inside = np.flatnonzero(~leave(net.points[to_tip], net.radius[to_tip], depth))
+    if not len(inside):
+        return False
+    net.end_at(name, chain[: chain.index(rows[inside[0]]) + 1], tip)
+    return True
 
 
 def _leaving(
