@@ -5,6 +5,7 @@
 #include <random>
 
 #include "base/oriented_box.h"
+#include "base/parallel.h"
 #include "base/point_tree.h"
 #include "base/polygon_edges.h"
 #include "base/rows.h"
@@ -21,6 +22,18 @@ std::vector<int32_t> random_ids(size_t count, int32_t below, uint32_t seed) {
   std::vector<int32_t> ids(count);
   for (int32_t& id : ids) id = static_cast<int32_t>(random() % static_cast<uint32_t>(below));
   return ids;
+}
+
+TEST(ParallelFor, StopsWhereTheBarDoesNotMove) {
+  Progress progress;
+  int done = 0;
+  const auto body = [&](int64_t i) {
+    ++done;
+    if (i == 10) progress.cancel();
+  };
+  EXPECT_THROW(parallel_for(100, Run{1, &progress, nullptr, false}, body, 1), Cancelled);
+  EXPECT_EQ(done, 11);
+  EXPECT_EQ(progress.fraction(), 0);
 }
 
 TEST(RowsContaining, ListsTheRowsOfEveryId) {
