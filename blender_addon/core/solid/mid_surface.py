@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from .thin_sheets import ThinSheets
 
 _UNEVEN = (
-    0.8  # a sheet whose least thickness is less than this share of its largest has an uneven one
+    0.1  # by such a share of it a thickness differs from its mean, in the mean, where it is uneven
 )
 _STEEPEST = 1.0  # the most by which the thickness between walls that face each other changes along its sheet
 _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
@@ -333,7 +333,7 @@ def _lengths(
     """
     part = np.repeat(sheets.part, 3)
     places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
-    slopes = _slopes_at_corners(sheets)
+    slopes, uneven = _slopes_at_corners(sheets), _are_uneven(sheets, parts)
 
     def lengths(queries: NDArray[np.float64], of: NDArray[np.int32]) -> NDArray[np.float64]:
         found = np.zeros(len(queries))
@@ -343,14 +343,25 @@ def _lengths(
                 continue
             with own_errors() as module:
                 nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
-            at, mine = sites[nearest], values[sites]
+            at = sites[nearest]
             found[rows] = values[at]
-            if mine.min() < _UNEVEN * mine.max():
+            if uneven[number]:
                 more = dot(slopes[at], queries[rows] - places[at])
-                found[rows] = np.clip(found[rows] + more, 0.0, mine.max())
+                found[rows] = np.clip(found[rows] + more, 0.0, values[sites].max())
         return found
 
     return lengths
+
+
+def _are_uneven(sheets: CarriedSheets, parts: int) -> NDArray[np.bool_]:
+    """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
+    area = unit_normals(sheets.vertices[sheets.triangles])[1]
+    thickness = sheets.at_corners.mean(axis=1)
+    volume = np.bincount(sheets.part, area * thickness, parts)
+    whole = np.bincount(sheets.part, area, parts)
+    mean = volume / np.where(whole > 0.0, whole, 1.0)
+    apart = np.abs(thickness - mean[sheets.part])
+    return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
 
 
 def _slopes_at_corners(sheets: CarriedSheets) -> NDArray[np.float64]:
