@@ -16,6 +16,7 @@ import numpy as np
 
 from ..machine.native import own_errors
 from ..small_matrices import dot, shortest_solutions
+from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
 from .sheet_walls import TOUCHES, Walls, reflex_distances
 from .unfolded_sheets import unfolded
@@ -30,6 +31,9 @@ _BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curve
 _EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal
 _FLAT = 2e-8  # one less the cosine between planes that are one
 _RINGS = 3  # so many rings of facets round a bent one tell nothing either
+_UNEVEN = 0.5  # of its thickness: one that is farther from a plane over its sheet is uneven
+_TIP = 0.5  # of the thickness where a sheet goes on from: at a sharp edge one with less ends in it
+_INTO = 0.1  # of the way to the middle of its triangles: from there a vertex looks for its walls
 _PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
 
 
@@ -56,7 +60,7 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     """Carry the sheets on to where they meet and to the walls."""
     away = reflex_distances(sheets.vertices, walls)
     bent = sheets.at_edge | (away <= (1.0 + TOUCHES) * sheets.radius)
-    planes = _Planes(sheets, bent)
+    planes = _Planes(sheets, bent, walls)
     rows = _Rows(len(sheets.vertices))
     rows.add(planes.vertex, planes.places, planes.normals)
     rows.add(*planes.at_ends_of_bends(sheets))
@@ -135,14 +139,30 @@ def _are_curved(
     return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
 
 
+def _are_uneven(
+    sheets: ThinSheets, clear: NDArray[np.bool_], area: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(parts,) the sheets over whose clear triangles the thickness does not change evenly."""
+    weight = np.where(clear, area, 0.0)
+    whole = np.maximum(np.bincount(sheets.part, weight, sheets.parts), np.finfo(float).tiny)
+    mean = np.zeros((sheets.parts, 3))
+    np.add.at(mean, sheets.part, weight[:, None] * sheets.slopes)
+    mean /= whole[:, None]
+    apart = np.linalg.norm(sheets.slopes - mean[sheets.part], axis=1)
+    radius = sheets.radius[sheets.triangles].mean(axis=1)
+    change = np.bincount(sheets.part, weight * apart, sheets.parts) * np.sqrt(whole)
+    return np.asarray(change > _UNEVEN * np.bincount(sheets.part, weight * radius, sheets.parts))
+
+
 class _Planes:
     """The plane in which a sheet goes on at each of its vertices, and its thickness there.
 
     Where the balls touch a reflex edge, and at sharp convex edges, it is that of the nearest vertex of the same sheet
-    whose facets are between faces.
+    whose facets are between faces. Where the thickness of the sheet is uneven, rays to its
+    walls correct it.
     """
 
-    def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_]) -> None:
+    def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_], walls: Walls) -> None:
         self._count = count = len(sheets.vertices)
         key = sheets.part[:, None] * np.int64(count) + sheets.triangles
         pairs, of_corner = np.unique(key, return_inverse=True)
@@ -158,6 +178,32 @@ class _Planes:
             # Far from its facets the plane of a curved sheet is another one.
             more = curved[sheets.part] & ~unclear & ~tilted & ~sheets.sliver & self._fits(sheets)
             self._take(sheets, part, clear | more, area)
+        known = self.vertex[self._site] == self.vertex
+        self._correct(sheets, ~known & _are_uneven(sheets, clear, area)[part], walls)
+
+    def _correct(self, sheets: ThinSheets, asked: NDArray[np.bool_], walls: Walls) -> None:
+        """Take the middle between the walls at vertices of sheets that go on there from elsewhere."""
+        rows = np.flatnonzero(asked)
+        if not len(rows):
+            return
+        places, radius, normals = self.places[rows], self._radius[rows], self.normals[rows]
+        vertex, slopes = self.vertex[rows], self._slopes[rows]
+        own = sheets.vertices[vertex]
+        start = own + _INTO * (self._middles(sheets)[rows] - own)
+        told = radius + dot(slopes, start - places)
+        found, middles, half = between_walls(start, normals, radius, told, walls)
+        self.places[rows[found]], self._radius[rows[found]] = middles[found], half[found]
+        at_tip = sheets.at_edge[vertex] & (radius + dot(slopes, own - places) < _TIP * radius)
+        self.places[rows[at_tip]] = own[at_tip]
+        self._radius[rows[at_tip]] = sheets.radius[vertex[at_tip]]
+
+    def _middles(self, sheets: ThinSheets) -> NDArray[np.float64]:
+        """(p, 3) the mean of the middles of the triangles around each pair of sheet and vertex."""
+        count, sums = np.zeros(len(self.vertex)), np.zeros((len(self.vertex), 3))
+        np.add.at(count, self._of_corner, 1.0)
+        middles = sheets.vertices[sheets.triangles].mean(axis=1)
+        np.add.at(sums, self._of_corner, middles[:, None])
+        return sums / count[:, None]
 
     def _take(
         self,
@@ -167,7 +213,7 @@ class _Planes:
         area: NDArray[np.float64],
     ) -> None:
         known, normals, slopes = self._means(sheets, np.where(clear, area, 0.0))
-        site = self._sites(sheets.vertices, part, known)
+        site = self._site = self._sites(sheets.vertices, part, known)
         self.places, self.normals = sheets.vertices[self.vertex[site]], normals[site]
         self._radius, self._slopes = sheets.radius[self.vertex[site]], slopes[site]
 

@@ -27,7 +27,7 @@ from ..samples.sample_spacing import mean_spacing
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Form, MidSurfaceSettings, Settings, Side, ThicknessSettings
-from ..small_matrices import length_of
+from ..small_matrices import dot, length_of
 from ..united import united
 from .carried_sheets import CarriedSheets, carried
 from .cut_out_plates import cut_out_plate
@@ -48,6 +48,10 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
     from .thin_sheets import ThinSheets
 
+_UNEVEN = (
+    0.1  # by such a share of it a thickness differs from its mean, in the mean, where it is uneven
+)
+_STEEPEST = 1.0  # the most by which the thickness between walls that face each other changes along its sheet
 _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
 _SAME = 1e-7  # of the diagonal: vertices so close are one
 _NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
@@ -323,18 +327,56 @@ def _pieces(triangles: NDArray[np.int32]) -> int:
 def _lengths(
     sheets: CarriedSheets, parts: int
 ) -> Callable[[NDArray[np.float64], NDArray[np.int32]], NDArray[np.float64]]:
-    """The function of places and their sheets that returns the thickness of the nearest corner there."""
+    """The function of places and their sheets that returns the thickness there.
+
+    It is that of the nearest corner. In a sheet of uneven thickness it changes from there as around that corner.
+    """
     part = np.repeat(sheets.part, 3)
     places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
+    slopes, uneven = _slopes_at_corners(sheets), _are_uneven(sheets, parts)
 
     def lengths(queries: NDArray[np.float64], of: NDArray[np.int32]) -> NDArray[np.float64]:
         found = np.zeros(len(queries))
         for number in range(parts):
             rows, sites = np.flatnonzero(of == number), np.flatnonzero(part == number)
-            if len(rows):
-                with own_errors() as module:
-                    nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
-                found[rows] = values[sites[nearest]]
+            if not len(rows):
+                continue
+            with own_errors() as module:
+                nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
+            at = sites[nearest]
+            found[rows] = values[at]
+            if uneven[number]:
+                more = dot(slopes[at], queries[rows] - places[at])
+                found[rows] = np.clip(found[rows] + more, 0.0, values[sites].max())
         return found
 
     return lengths
+
+
+def _are_uneven(sheets: CarriedSheets, parts: int) -> NDArray[np.bool_]:
+    """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
+    area = unit_normals(sheets.vertices[sheets.triangles])[1]
+    thickness = sheets.at_corners.mean(axis=1)
+    volume = np.bincount(sheets.part, area * thickness, parts)
+    whole = np.bincount(sheets.part, area, parts)
+    mean = volume / np.where(whole > 0.0, whole, 1.0)
+    apart = np.abs(thickness - mean[sheets.part])
+    return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
+
+
+def _slopes_at_corners(sheets: CarriedSheets) -> NDArray[np.float64]:
+    """(3 t, 3) the slope of the thickness around each corner: the mean, by area, of the triangles of its sheet."""
+    key = sheets.part[:, None] * np.int64(len(sheets.vertices)) + sheets.triangles
+    pairs, row = np.unique(key, return_inverse=True)
+    row = row.reshape(key.shape)
+    corners = sheets.vertices[sheets.triangles]
+    normals, doubled = unit_normals(corners)
+    opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+    each = (np.cross(normals[:, None], opposite) * sheets.at_corners[:, :, None]).sum(axis=1)
+    sums, whole = np.zeros((len(pairs), 3)), np.zeros(len(pairs))
+    np.add.at(sums, row, each[:, None])
+    np.add.at(whole, row, doubled[:, None])
+    slopes = sums / np.where(whole > 0.0, whole, np.inf)[:, None]
+    steep = np.sqrt(dot(slopes, slopes))
+    slopes *= (_STEEPEST / np.maximum(steep, _STEEPEST))[:, None]
+    return slopes[row.ravel()]

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The middle between the two walls of a sheet, and how far these are apart, by rays from places inside of the solid.
+
+At its rims a sheet goes on as it does farther inside. That is right where its thickness changes evenly. Elsewhere a
+vertex of the axis at a rim tells it better: it is inside of the solid, so rays from there along the normal of the sheet
+meet both of its walls.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .sheet_walls import Walls
+
+_REACH = 2.0  # so many radii away both walls are looked for; they are two apart at most
+_LIKE = 0.25  # in radii: walls whose distance differs by more from the expected one are others
+
+
+def between_walls(
+    places: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    expected: NDArray[np.float64],
+    walls: Walls,
+) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
+    """Measure a sheet between its walls.
+
+    Parameters
+    ----------
+    places : (n, 3) float64
+        Inside of the solid.
+    normals : (n, 3) float64
+        Unit normals of the sheet.
+    radius : (n,) float64
+        Half of the thickness of the sheet somewhere near.
+    expected : (n,) float64
+        About half of its thickness there.
+    walls : Walls
+
+    Returns
+    -------
+    found : (n,) bool
+        Whether both walls are about where they are expected; elsewhere the other two are nothing.
+    middles : (n, 3) float64
+    half : (n,) float64
+        Half of the way between the walls.
+    """
+    with own_errors() as module:
+        below, above = (
+            np.asarray(
+                module.wall_distances(
+                    np.ascontiguousarray(places),
+                    np.ascontiguousarray(side * normals),
+                    (_REACH + _LIKE) * radius,
+                    walls.points,
+                    walls.triangles,
+                )
+            )
+            for side in (1.0, -1.0)
+        )
+    found = np.isfinite(below) & np.isfinite(above)
+    below, above = (np.where(found, each, 0.0) for each in (below, above))
+    half = 0.5 * (below + above)
+    found &= np.abs(half - expected) <= _LIKE * radius
+    return found, places + 0.5 * (above - below)[:, None] * normals, half
