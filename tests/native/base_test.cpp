@@ -31,7 +31,8 @@ TEST(ParallelFor, StopsWhereTheBarDoesNotMove) {
     ++done;
     if (i == 10) progress.cancel();
   };
-  EXPECT_THROW(parallel_for(100, Run{1, &progress, nullptr, false}, body, 1), Cancelled);
+  const medial::Run run{1, &progress, nullptr, false};
+  EXPECT_THROW(parallel_for(100, run, body, 1), Cancelled);
   EXPECT_EQ(done, 11);
   EXPECT_EQ(progress.fraction(), 0);
 }
