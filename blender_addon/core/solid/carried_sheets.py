@@ -158,8 +158,7 @@ class _Planes:
     """The plane in which a sheet goes on at each of its vertices, and its thickness there.
 
     Where the balls touch a reflex edge, and at sharp convex edges, it is that of the nearest vertex of the same sheet
-    whose facets are between faces. Where the thickness of the sheet is uneven, rays to its
-    walls correct it.
+    whose facets are between faces. Where the thickness of the sheet is uneven, rays to its walls correct it.
     """
 
     def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_], walls: Walls) -> None:

@@ -48,11 +48,9 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
     from .thin_sheets import ThinSheets
 
-_UNEVEN = (
-    0.1  # by such a share of it a thickness differs from its mean, in the mean, where it is uneven
-)
-_STEEPEST = 1.0  # the most by which the thickness between walls that face each other changes along its sheet
-_PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
+_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
+_STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
+_FLAT = 1e-3  # a mean normal that is shorter than 1 by less than this is that of a flat sheet
 _SAME = 1e-7  # of the diagonal: vertices so close are one
 _NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
 _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
@@ -246,7 +244,7 @@ def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
     total = np.zeros((int(sheets.part.max()) + 1, 3))
     np.add.at(total, sheets.part, vectors)
     whole = np.bincount(sheets.part, np.linalg.norm(vectors, axis=1))
-    return bool((np.linalg.norm(total, axis=1) < (1.0 - _PLAIN) * whole).any())
+    return bool((np.linalg.norm(total, axis=1) < (1.0 - _FLAT) * whole).any())
 
 
 def _with_thickness(
