@@ -390,9 +390,9 @@ class Hierarchy:
     def place(self) -> NDArray[np.int32]:
         """(v,) int32: how each crisp place was found.
 
-        0: it is the Voronoi vertex, because no walls are known there; 1: it is the Voronoi vertex, because the ball of
-        the walls was not empty or too far away; 2: the ball touches the walls; 3: it is on a smooth rim; 4: it is on a
-        convex crease; 5: it is in a corner."""
+        0: it is the Voronoi vertex, because no walls are known there, or the samples are very dense; 1: it is the
+        Voronoi vertex, because the ball of the walls was not empty or too far away; 2: the ball touches the walls; 3:
+        it is on a smooth rim; 4: it is on a convex crease; 5: it is in a corner."""
     @property
     def edges(self) -> NDArray[np.int32]:
         """(e, 2) int32: ends of each edge, the lower vertex first."""

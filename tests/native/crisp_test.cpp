@@ -489,6 +489,32 @@ TEST(Crisp, IsCancelledFromAnotherThread) {
   ended = true;
 }
 
+// Crisp places take most of the time, and so have most of the bar.
+TEST(Crisp, HasMostOfTheBar) {
+  const CrispBox made(1);
+  const test::Mesh mesh = box();
+  const MedialAnalysis analysis(
+      {made.samples.points, mesh.triangles, made.samples.normals, mesh.vertices});
+  const FacesInput faces{mesh.vertices, mesh.triangles, made.samples.triangle};
+  Progress progress;
+  std::atomic<bool> ended{false};
+  double most = 0;  // of the bar before the stage of rims
+  {
+    const Thread watcher([&] {
+      while (!ended) {
+        const double fraction = progress.fraction();
+        const std::string stage = progress.stage();
+        if (stage == "Folds") return;
+        if (stage != "Rims") most = std::max(most, fraction);
+      }
+    });
+    analysis.hierarchy({}, Side::inner, 1, &progress, &faces);
+    ended = true;
+  }
+  EXPECT_LT(most, 0.6);
+  EXPECT_EQ(progress.fraction(), 1);
+}
+
 TEST(Crisp, RefusesFacesThatAreNotOnePerPoint) {
   const CrispBox made(1);
   const test::Mesh mesh = box();

@@ -4,14 +4,15 @@
 namespace medial {
 namespace {
 
+constexpr double kBarOfRims = 0.55, kBarOfFolds = 0.7;
+
 // Facets of K1 that noise of the samples may have caused keep their places.
 bool is_certain(const Thickness& value) {
   return value.sheet > 0 && value.spacings > 1 && value.erosion > 0;
 }
 
-// Places a vertex of facets: on a crease, or where its ball touches its walls.
-void place(CrispState& state, CreaseRims& creases, int32_t v) {
-  if (state.on_rim[v] && creases.onto_crease(v)) return;
+// Places a vertex of facets where its ball touches its walls.
+void place(CrispState& state, int32_t v) {
   Touch found;
   Walls before;
   for (const bool thorough : {false, true}) {
@@ -142,14 +143,20 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,
                          std::span<const uint8_t> edges, const Run& run) {
+  begin_stage(run.progress, "Crisp places", kBarOfCrispPlaces, kBarOfRims);
   CrispState state(complex, triangulation, samples, facets, sine, selected, edges, run);
   CreaseRims creases(state);
+  const Array<uint8_t> dense = dense_vertices(state);
   parallel_for(
       complex.vertices(), {run.threads, state.progress, run.arena},
-      [&](int64_t v) {
-        if (!state.facets_at[v].empty()) place(state, creases, static_cast<int32_t>(v));
+      [&](int64_t id) {
+        const auto v = static_cast<int32_t>(id);
+        if (state.facets_at[v].empty()) return;
+        const bool on_crease = state.on_rim[v] && creases.onto_crease(v);
+        if (!on_crease && !dense[v]) place(state, v);
       },
       256);
+  begin_stage(run.progress, "Rims", kBarOfRims, kBarOfFolds);
   settle_smooth_rims(state);
   end_fillets(state);
   order_rims(state);
@@ -158,6 +165,7 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
   creases.smooth_zigzags();
   join_seams(state);
   end_wires(state);
+  begin_stage(run.progress, "Folds", kBarOfFolds, 1);
   unfold(state);
   contract_folds(state);
   return std::move(state.made);

@@ -10,8 +10,11 @@
 
 namespace medial {
 
+// How far the bar of a hierarchy is where this stage begins, which ends it.
+inline constexpr double kBarOfCrispPlaces = 0.32;
+
 enum class Placing : uint8_t {
-  voronoi,   // no wall is known there: the vertex of a wire, or one of samples on no face
+  voronoi,   // the vertex of a wire, one of samples on no face, or one of dense samples
   refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
   touching,  // the ball touches the walls, and no face is nearer
   rim,       // at the end of a sheet, where the two places that the ball touches become one

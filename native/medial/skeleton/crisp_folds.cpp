@@ -6,8 +6,12 @@
 namespace medial {
 namespace {
 
-constexpr double kIdle = 0.1;       // steps that unfold nothing before a stage ends, per vertex
-constexpr double kDeepDent = 0.25;  // the sine of the turn
+// A stage ends after steps that unfold next to nothing: so many per vertex of all, or so many in
+// all if there are few vertices.
+constexpr double kIdle = 0.1;
+constexpr size_t kFewSteps = 4'000;
+constexpr double kNextToNothing = 0.02;  // the share of the folded vertices
+constexpr double kDeepDent = 0.25;       // the sine of the turn
 
 constexpr double kAside = 0.1;  // holes from a place to one where a ball nearly touches walls
 
@@ -24,6 +28,7 @@ struct Stage {
 constexpr Stage kNarrow[] = {
     {3, true, 0, 1, false}, {3, true, 1, 1, false}, {18, false, 1, 1, false}};
 constexpr Stage kWide[] = {{8, false, 2, 4, true}, {8, false, 3, 12, true}};
+constexpr double kAllRounds = 3 + 3 + 18 + 8 + 8;
 
 class Unfolder {
  public:
@@ -58,25 +63,36 @@ class Unfolder {
   };
 
   int64_t folded_facets(std::span<const int32_t> suspects) const {
-    return std::count_if(suspects.begin(), suspects.end(),
-                         [&](int32_t facet) { return is_folded(c_, facet, false); });
+    return std::count_if(suspects.begin(), suspects.end(), [&](int32_t facet) {
+      return can_unfold(facet) && is_folded(c_, facet, false);
+    });
+  }
+
+  // Returns whether a corner of a facet may move. The facets of the web at a fillet have none.
+  bool can_unfold(int32_t facet) const {
+    const auto ring = c_.complex.ring(facet);
+    return std::any_of(ring.begin(), ring.end(), [&](const Corner& c) { return moves(c.vertex); });
   }
 
   // Takes rounds of steps while they unfold facets, or are few; `suspects` are the facets that may
   // be folded, before and after.
   void take_rounds(const Stage& stage, std::vector<int32_t>& suspects) {
     size_t fewest = SIZE_MAX, idle = 0;
-    const auto most = static_cast<size_t>(kIdle * static_cast<double>(c_.walls.size()));
+    const auto vertices_of_all = static_cast<double>(c_.walls.size());
+    const size_t most = std::max(kFewSteps, static_cast<size_t>(kIdle * vertices_of_all));
     for (int round = 0; round < stage.rounds && idle <= most; ++round) {
-      throw_if_cancelled(c_.progress);
+      advance(c_.progress, rounds_ / kAllRounds);
+      ++rounds_;
       std::vector<int32_t> vertices = folded_vertices(suspects, stage.dented);
       if (vertices.empty()) return;
-      idle = vertices.size() < fewest ? 0 : idle + vertices.size();
-      fewest = std::min(fewest, vertices.size());
+      const size_t folded = vertices.size();
       for (int ring = 0; ring < stage.rings; ++ring) vertices = with_neighbours(vertices);
       suspects = facets_round(vertices);
       std::erase_if(vertices, [&](int32_t v) { return !moves(v); });
       relax(vertices, stage);
+      const double wanted = (1 - kNextToNothing) * static_cast<double>(fewest);
+      idle = static_cast<double>(folded) < wanted ? 0 : idle + vertices.size();
+      fewest = std::min(fewest, folded);
     }
   }
 
@@ -84,6 +100,7 @@ class Unfolder {
   std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
     auto vertices = parallel_append<int32_t>(static_cast<int64_t>(suspects.size()), c_.run,
                                              [&](int64_t i, auto& out, int) {
+                                               if (!can_unfold(suspects[i])) return;
                                                if (!is_folded(c_, suspects[i], dented)) return;
                                                for (const Corner& c : c_.complex.ring(suspects[i]))
                                                  out.push_back(c.vertex);
@@ -210,6 +227,7 @@ class Unfolder {
   }
 
   CrispState& c_;
+  double rounds_ = 0;
 };
 
 // Returns the corners of a facet as they are drawn: in the plane between its two generators.

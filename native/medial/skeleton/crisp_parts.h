@@ -104,6 +104,12 @@ class CrispState {
   void find_hidden(std::span<const uint8_t> selected);
 };
 
+// --- crisp_dense.cpp
+
+// Returns for each vertex whether it stays at its Voronoi vertex, as the samples round it are on
+// curved walls, and so dense that no one would see it move.
+Array<uint8_t> dense_vertices(const CrispState& state);
+
 // --- crisp_walls.cpp
 
 // Returns the walls of a vertex: its samples are of one wall where no facet separates them. On a

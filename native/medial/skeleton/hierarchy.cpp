@@ -13,6 +13,14 @@
 namespace medial {
 namespace {
 
+// How far the bar is where each stage begins. Faces and crisp places, where there are any, take
+// most of the time.
+struct Bar {
+  double complex, fringe, fire, wires, values, crisp;
+};
+constexpr Bar kWithoutFaces{0, 0.2, 0.4, 0.7, 0.8, 0.85};
+constexpr Bar kWithFaces{0.1, 0.14, 0.17, 0.27, 0.3, kBarOfCrispPlaces};
+
 // Returns the thickness per facet in units that may differ from facet to facet.
 template <typename Unit>
 Array<float> in_units(std::span<const double> thickness, const Run& run, const Unit& unit) {
@@ -52,8 +60,9 @@ void side_by_side(std::span<const std::function<void()>> works, const Run& run) 
 }
 
 // Runs the stages 0 and 1, which leave K1.
-Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run& run) {
-  begin_stage(run.progress, "Fringe", 0.2, 0.4);
+Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Bar& bar,
+              const Run& run) {
+  begin_stage(run.progress, "Fringe", bar.fringe, bar.fire);
   Collapse collapse = whole(complex, weight, {run.threads, nullptr, run.arena});
   open_bubbles(complex, weight, collapse, run);
   peel_facets(complex, weight, collapse, run);
@@ -94,15 +103,16 @@ Values values_of_facets(const InnerComplex& complex, const Collapse& collapse,
 // because its gaps are too small for them.
 void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeights& weight,
                   const std::function<void()>& beside_fire,
-                  const std::function<void()>& beside_limbs, Stopwatch& watch, const Run& run) {
+                  const std::function<void()>& beside_limbs, const Bar& bar, Stopwatch& watch,
+                  const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
   const InnerComplex& complex = made.complex;
   const auto together = [&](const std::function<void()>& a, const std::function<void()>& b) {
     side_by_side(std::array{a, b}, run);
   };
-  Collapse collapse = peel(complex, weight, run);
+  Collapse collapse = peel(complex, weight, bar, run);
   watch.lap("fringe");
-  begin_stage(run.progress, "Fire", 0.4, 0.7);
+  begin_stage(run.progress, "Fire", bar.fire, bar.wires);
   Burning burning;
   Wires wires;
   {
@@ -112,7 +122,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     release_heap();
     together([&] { burning = burn(complex, facets.points, collapse, run); }, beside_fire);
     watch.lap("fire");
-    begin_stage(run.progress, "Wires", 0.7, 0.8);
+    begin_stage(run.progress, "Wires", bar.wires, bar.values);
     release(run.arena);
     together([&] { wires = burn_wires(complex, burning, collapse, run); },
              [&] {
@@ -124,7 +134,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     burning = {};
     watch.lap("wires");
   }
-  begin_stage(run.progress, "Values", 0.8, 0.85);
+  begin_stage(run.progress, "Values", bar.values, bar.crisp);
   release(run.arena);
   together([&] { made.limb = kept(limb_values(complex, collapse, wires, alone)); },
            [&] {
@@ -188,7 +198,9 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   std::vector<double> bounded;
   std::optional<SamplesOnFaces> on_faces;
   std::vector<EdgeMark> marks;
+  const Bar& bar = faces ? kWithFaces : kWithoutFaces;
   if (faces) {
+    begin_stage(run.progress, "Faces", 0, bar.complex);
     // The faces outlive the arena.
     made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
                                          Run{run.threads, run.progress, nullptr});
@@ -201,7 +213,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     mark_partners(WallPartners(partners, samples, run), facets.edges, marks, run);
   }
   const FacetWeights weight(facets, thresholds, marks);
-  begin_stage(run.progress, "Inner complex", 0, 0.2);
+  begin_stage(run.progress, "Inner complex", bar.complex, bar.fringe);
   made.complex =
       inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
   watch.lap("complex");
@@ -214,19 +226,18 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
     made.row = samples.row;
   };
-  collapse_all(made, facets, weight, beside_fire, beside_limbs, watch, run);
+  collapse_all(made, facets, weight, beside_fire, beside_limbs, bar, watch, run);
   release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
   if (on_faces) {
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
-    begin_stage(run.progress, "Crisp places", 0.85, 1);
     const Alive left = alive_at(made, {.spacings = 1}, {run.threads, nullptr, run.arena});
     made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
                               made.sine, selected, left.edge, run);
     watch.lap("crisp");
   } else {
-    begin_stage(run.progress, "Values", 0.85, 1);
+    begin_stage(run.progress, "Values", bar.crisp, 1);
   }
   made.complex.dual = {};  // these indices mean nothing without the analysis
   watch.lap("values");

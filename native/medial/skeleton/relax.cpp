@@ -93,10 +93,12 @@ void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Hierarchy
       relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
   parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
     const int32_t v = moved[i];
-    const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);
-    const bool crisp = h.crisp.place[level.vertex_of[v]] >= Placing::touching &&
-                       h.samples.nearest(foot->point).distance <= h.crisp.reach;
-    level.radius[v] = crisp ? foot->distance : h.samples.nearest(level.vertices[v]).distance;
+    if (h.crisp.place[level.vertex_of[v]] >= Placing::touching) {
+      const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);
+      level.radius[v] = foot->distance;
+      if (h.samples.nearest(foot->point).distance <= h.crisp.reach) return;
+    }
+    level.radius[v] = h.samples.nearest(level.vertices[v]).distance;
   });
 }
 

@@ -22,6 +22,7 @@ class SamplesOnFaces {
 
   const Faces& faces() const { return faces_; }
   const ConvexCreases& creases() const { return creases_; }
+  int64_t count() const { return static_cast<int64_t>(triangle_.size()); }
   const Vec3& point(int32_t sample) const { return samples_.points[sample]; }
   double spacing(int32_t sample) const { return spacing_[sample]; }
   // Returns the triangle of the mesh on which a sample lies, or -1.
