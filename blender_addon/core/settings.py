@@ -95,7 +95,7 @@ CACHE_SIZE = Integer(
     label="Cache Size",
     description="Memory that analyses may keep for other thresholds after a computation, in MB; "
     "the oldest go first",
-    default=1 << 11,
+    default=3 << 10,
     minimum=0,
     maximum=1 << 20,
     soft_minimum=0,
