@@ -30,7 +30,9 @@ from scipy.spatial import ConvexHull
 from support.shapes import SHAPES
 
 COUNTS = (20_000, 100_000, 1_000_000)
-LARGEST_DRAWN = 20_000  # larger results are drawn by the thread of a job, after the operator has ended
+LARGEST_DRAWN = (
+    20_000  # larger results are drawn by the thread of a job, after the operator has ended
+)
 SCRIPT = Path(__file__).resolve().parent / "in_blender.py"
 HEADER = [
     "in Blender",

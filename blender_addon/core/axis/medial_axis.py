@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 
 # Values of `LevelValues.place`. A vertex is on the Voronoi diagram because no faces are known there or the samples are
-# very dense, or because the ball of the faces was not empty or too far away; or it is where the ball touches the faces, on a smooth rim, on a
-# sharp convex edge or in a corner.
+# very dense, or because the ball of the faces was not empty or too far away; or it is where the ball touches the faces,
+# on a smooth rim, on a sharp convex edge or in a corner.
 VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE, IN_CORNER = range(6)
 
 
