@@ -73,7 +73,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     fast: BoolProperty(
         name="Fast",
         description="Sample faces once, where Sampling is Automatic: no look at the vertices, no second "
-        "pass for thin parts",
+        "pass for thin parts; and no exact places",
     )
 
     def execute(self, context):
@@ -128,6 +128,8 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             self.report({"ERROR"}, say(error))
             return False
         self._count, self._shown = len(self._items), context.scene.frame_current
+        # Values that were changed without a key are of no frame.
+        context.scene.frame_set(self._shown)
         self._done, self._failed, self._kept = {}, 0, 0
         return True
 
@@ -224,9 +226,10 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
 
 
 def _faster(settings):
-    """The same with one pass of samples, where that is not already chosen otherwise."""
+    """The same without exact places, and with one pass of samples where that is not already chosen otherwise."""
     automatic = settings.sampling is SamplingMode.AUTOMATIC
-    return replace(settings, sampling=SamplingMode.SURFACE) if automatic else settings
+    sampling = SamplingMode.SURFACE if automatic else settings.sampling
+    return replace(settings, sampling=sampling, crisp=False)
 
 
 def _items(things, frames, pattern):
@@ -326,7 +329,8 @@ def register():
     bpy.types.Scene.medial_axis_sequence_of = _of()
     bpy.types.Scene.medial_axis_fast = BoolProperty(
         name="Fast",
-        description="Sample faces once at every frame: quicker, and coarser at thin parts",
+        description="Sample faces once at every frame, without exact places: quicker, and coarser at thin parts "
+        "and edges",
     )
 
 

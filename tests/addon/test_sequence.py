@@ -54,6 +54,23 @@ def test_files_and_playback(growing, tmp_path):
     assert len(ranges) == 1, "the same colours mean the same radius in all frames"
 
 
+def test_values_that_were_changed_without_a_key_are_of_no_frame(growing, tmp_path):
+    bpy.context.scene.frame_set(1)
+    growing.scale = (3.0, 3.0, 3.0)
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1,4")
+    first, last = (np.ptp(positions(thing.data)[:, 0]) for thing in play().objects)
+    assert last / first == pytest.approx(2.0, rel=1e-3)
+
+
+def test_fast_leaves_out_exact_places(growing, tmp_path):
+    for fast in (False, True):
+        select(growing)
+        folder = tmp_path / str(fast)
+        bpy.ops.object.medial_axis_sequence(directory=str(folder), frames="1", fast=fast)
+        axis = addon("core.files.load_axis").load_axis(folder / "Body_0001.npz")
+        assert axis.level.is_crisp.any() != fast
+
+
 def test_attributes_come_from_the_file(growing, tmp_path):
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="3")
     axis = addon("core.files.load_axis").load_axis(tmp_path / "Body_0003.npz")

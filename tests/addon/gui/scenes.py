@@ -1484,6 +1484,8 @@ def scene_sequence():
     look("computed")
     assert len(list(folder.glob("Suzanne_000?.npz"))) == 3 == len(played())
     assert bpy.context.scene.frame_current == 1 and no_job()
+    (shown,) = (thing for thing in played() if thing.visible_get())
+    assert shown.dimensions.z <= source.dimensions.z, "the first frame has no key of the last"
     yield from key("ctrl+z")
     assert played() == [] and len(bpy.data.collections) == 1
     start_sequence(folder)  # of files that are finished
