@@ -4,10 +4,11 @@
     python3 lab/benchmarks/vessels.py [--svv PYTHON] [--vmtk PYTHON] [--output table.md]
 
 The vessels are those that svv (svVascularize, on PyPI) grows in a cube, with 25 ends and a root, in the Python that
---svv names, because it needs an older NumPy; no two runs of it grow the same, whatever seeds they are given. The botanical tree is made here: each branch ends in two, whose squared
-radii add up to its own. Both become meshes as the neurons do, in units in which the thinnest radius is 15. Programs,
-columns, and what is left out where it is absent are those of neurons.py. VMTK runs in the Python that --vmtk names, for
-300 s at most, and is told all ends. Without a Python for them both are left out by name.
+--svv names, because it needs an older NumPy; no two runs of it grow the same, whatever seeds it is given. The botanical
+tree is made here: each branch ends in two, whose squared radii add up to its own. Both become meshes as the neurons do,
+in units in which the thinnest radius is 15. Programs, columns, and what is left out where it is absent are those of
+neurons.py. VMTK runs in the Python that --vmtk names, for 300 s at most, and is told all ends. Without a Python for
+them both are left out by name.
 """
 
 from __future__ import annotations

@@ -30,11 +30,19 @@ def test_a_program_that_fails_ends_its_row_only(monkeypatch, no_surface):
     tree = vessels.botanical()
     known = neurons.Lines(tree.places, tree.edges, tree.radius)
     monkeypatch.setattr(neurons, "ours", lambda shape, detail: known)
-    monkeypatch.setattr(neurons.importlib.util, "find_spec", lambda name: name != "skeletor" or None)
+    monkeypatch.setattr(
+        neurons.importlib.util, "find_spec", lambda name: name != "skeletor" or None
+    )
     monkeypatch.setattr(neurons, "kimimaro", fail)
     monkeypatch.setattr(neurons, "cgal", lambda shape: known)
     rows = list(neurons.rows_of("tree", tree))
-    assert [row[2] for row in rows] == ["17", "17", "failed: TypeError", "17", "left out: no skeletor"]
+    assert [row[2] for row in rows] == [
+        "17",
+        "17",
+        "failed: TypeError",
+        "17",
+        "left out: no skeletor",
+    ]
     assert rows[0][3] == "17 of 17" and {len(row) for row in rows} == {len(neurons.HEADER)}
 
 
