@@ -6,8 +6,9 @@ from functools import cache
 import medial_axis
 import numpy as np
 import pytest
+from medial_axis.core.solid import capsule_segments
 from medial_axis.core.solid.capsule_fits import fitting_radii, gaps
-from medial_axis.core.solid.capsule_segments import Witnesses, evenly, places_inside, segments_of
+from medial_axis.core.solid.capsule_segments import evenly, places_inside, segments_of
 from support import meshes, swept
 
 ROD = swept.capsule(4.0, 0.3, 64)
@@ -22,8 +23,8 @@ def dumb_bell():
     return meshes.lathe(np.column_stack([r, z]), 16)
 
 
-def witnesses_of(mesh, bound):
-    return Witnesses.of(places_inside(*mesh, 4000), mesh[0], bound)
+def places_of(mesh):
+    return places_inside(*mesh, 4000), mesh[0]
 
 
 @pytest.mark.parametrize("count", [1, 1000, 20_000])
@@ -33,9 +34,11 @@ def test_places_inside_are_in_the_solid_and_as_many_as_wanted(medial, count):
     assert 0.5 * count <= len(places) <= 2 * count + 8
 
 
-def test_places_of_a_thin_solid_are_bounded_by_its_box():
-    thin = np.array(ROD[0]) @ np.array([(1, 0, 0), (0, 1e-3, 0), (1, 0, 1)])
-    assert 100 < len(places_inside(thin, ROD[1], 20_000)) < 1_000_000
+def test_places_of_a_thin_solid_are_bounded_by_its_box(monkeypatch):
+    monkeypatch.setattr(capsule_segments, "_IN_BOX", 20_000)
+    shear = np.array([(1.0, 0, 0), (0, 1e-3, 0), (1.0, 0, 1.0)])
+    thin = (ROD[0][:, :, None] * shear).sum(axis=1)
+    assert 100 < len(places_inside(thin, ROD[1], 20_000)) < 20_000
 
 
 def test_evenly_keeps_at_most_so_many():
@@ -85,28 +88,47 @@ def test_balls_in_a_row_become_so_many_segments(count):
     """Balls along a rod: one capsule holds as much as all of them."""
     centres = np.column_stack([np.zeros((12, 2)), np.linspace(0.0, 4.0, 12)])
     radii = np.full(12, 0.29)
-    places, segments = segments_of(centres, radii, count, ROD, witnesses_of(ROD, 0.05), False)
+    places, segments = segments_of(centres, radii, count, ROD, places_of(ROD), 0.05, False)
     assert segments.shape == (count, 2) and len(places) == 2 * count
     heights = np.sort(places[:, 2])
     assert heights[0] == 0.0 and heights[-1] == 4.0
     assert {tuple(place) for place in places} <= {tuple(place) for place in centres}
 
 
+def two_spheres():
+    large, small = meshes.icosphere(3), meshes.icosphere(3)
+    vertices = np.concatenate([large[0], 0.1 * small[0] + (3.0, 0, 0)])
+    triangles = np.concatenate([large[1], small[1] + len(large[0])]).astype(np.int32)
+    return vertices, triangles
+
+
 def test_a_place_beyond_the_bound_costs_more_than_all_places_inside():
-    """Of two balls, the small one goes if the bound allows that, and else the large one."""
-    first, second = meshes.icosphere(3), meshes.icosphere(3)
-    mesh = (
-        np.concatenate([first[0], 0.1 * second[0] + (3.0, 0, 0)]),
-        np.concatenate([first[1], second[1] + len(first[0])]).astype(np.int32),
-    )
+    mesh = two_spheres()
     centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
-    for bound, left in ((2.5, 0.0), (0.05, 0.0)):
-        witnesses = witnesses_of(mesh, bound)
-        places, _ = segments_of(centres, radii, 1, mesh, witnesses, False)
-        assert places[0, 0] == left
-    far = Witnesses.of(np.zeros((50, 3)), np.array([(3.1, 0, 0)]), 0.05)
-    places, _ = segments_of(centres, radii, 1, mesh, far, False)
-    assert places[0, 0] == 3.0
+    ends, _ = segments_of(centres, radii, 1, mesh, places_of(mesh), 2.5, False)
+    assert (ends[:, 0] == 0.0).all()
+    few = np.zeros((50, 3)), np.array([(3.1, 0, 0)])
+    ends, _ = segments_of(centres, radii, 1, mesh, few, 0.05, False)
+    assert (ends[:, 0] == 3.0).all()
+
+
+def test_a_bound_of_0_grows_until_it_can_be_kept():
+    mesh = two_spheres()
+    centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
+    ends, segments = segments_of(centres, radii, 1, mesh, places_of(mesh), 0.0, False)
+    assert len(segments) == 1 and (ends[:, 0] == 0.0).all()
+
+
+def test_a_spindle_has_no_end_bare():
+    """No 16 capsules of one radius keep the first bound; counting places beyond it left 0.47 of this length of 8."""
+    z = np.linspace(-4.0, 4.0, 81)
+    r = 0.5 * (1.0 - np.abs(z) / 4.0)
+    mesh = meshes.lathe(np.column_stack([r, z]), 24)
+    balls = medial_axis.cover_by_balls(*mesh, sampling="vertices", count=16).balls
+    found = medial_axis.cover_by_balls(
+        *mesh, sampling="vertices", count=16, shapes="capsules"
+    ).balls
+    assert found.farthest < balls.farthest and found.covered > balls.covered
 
 
 @pytest.mark.parametrize("shapes", ["capsules", "tapered"])

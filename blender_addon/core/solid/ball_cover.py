@@ -27,7 +27,7 @@ from ..settings import (
     SidesFrom,
 )
 from ..small_matrices import length_of
-from .capsule_segments import Witnesses, evenly, places_inside, segments_of
+from .capsule_segments import evenly, places_inside, segments_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -255,13 +255,9 @@ def _segments(
             progress=progress.part(),
         )
     progress.until(_SEGMENTS)
-    witnesses = Witnesses.of(
-        places_inside(*surface, _INSIDE),
-        evenly(chosen.samples.points, _ON_SURFACE),
-        _BOUND * found.farthest,
-    )
+    places = places_inside(*surface, _INSIDE), evenly(chosen.samples.points, _ON_SURFACE)
     balls = candidates[0][found.chosen], found.radii
-    return segments_of(*balls, count, surface, witnesses, tapered, progress)
+    return segments_of(*balls, count, surface, places, _BOUND * found.farthest, tapered, progress)
 
 
 def _figures_of(found: Any, mode: CoverMode) -> tuple[float, float, float]:

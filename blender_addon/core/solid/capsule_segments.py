@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 _NEAR = 10  # elements with which one may merge
 _IN_BOX = 1_000_000  # places of a lattice that are looked at, at most
+_BEYOND = 2.0  # times the bound: if places are farther, another bound is tried
+_FIRST = 16.0  # the bound is this part of the distance at least, should the first one be 0
+_LONGER = 1.25
 _NEWTON = 12  # steps; each doubles the digits
 _ROUND = 16  # a round of proposals follows when one of so many elements is new
 
@@ -78,12 +81,19 @@ def places_inside(
     low, size = vertices.min(axis=0), np.ptp(vertices, axis=0)
     a, b, c = np.moveaxis(vertices[triangles] - low, 1, 0)
     volume = abs(float(dot(a, np.cross(b, c)).sum())) / 6.0
-    step = _cube_root(max(volume / count, float(size[0] * size[1] * size[2]) / _IN_BOX))
-    steps = [max(1, round(length / step)) for length in size.tolist()]
+    box = float(size[0] * size[1] * size[2])
+    steps = _steps(size.tolist(), _cube_root(max(volume / count, box / _IN_BOX)))
     axes = [(np.arange(n) + 0.5) * (length / n) for n, length in zip(steps, size, strict=True)]
     places = low + np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     with own_errors() as module:
         return places[np.asarray(module.winding_number(places, vertices, triangles)) > 0.5]
+
+
+def _steps(size: list[float], step: float) -> list[int]:
+    """Return how many steps of about this length fit in a box; of a longer one, if there were too many places."""
+    while math.prod(steps := [max(1, round(length / step)) for length in size]) > _IN_BOX:
+        step *= _LONGER
+    return steps
 
 
 def _cube_root(number: float) -> float:
@@ -173,6 +183,15 @@ class _Merging:
             fresh += self._apply(self._changes.cheapest(self._holders, self._witnesses.weight))
             fresh = [row for row in fresh if self.lives[row]]
 
+    def farthest(self) -> float:
+        """Return how far the farthest place on the surface is, or 0 if all are within the bound."""
+        bare = (self._holders == 0) & (self._witnesses.reach > 0.0)
+        places = self._witnesses.places[bare]
+        away = np.full(len(places), np.inf)
+        for row in np.flatnonzero(self.lives):
+            away = np.minimum(away, gaps(places, self.ends[row], self.radii[row]))
+        return float(away.max(initial=0.0))
+
     def _propose(self, rows: list[int]) -> None:
         """Add the changes of new elements: each may go, or merge with one that is near."""
         none = np.zeros(0, np.int64)
@@ -241,7 +260,8 @@ def segments_of(
     radii: NDArray[np.float64],
     count: int,
     surface: tuple[NDArray[np.float64], NDArray[np.int32]],
-    witnesses: Witnesses,
+    places: tuple[NDArray[np.float64], NDArray[np.float64]],
+    bound: float,
     tapered: bool,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
@@ -258,18 +278,28 @@ def segments_of(
     count : int
     surface : (v, 3) float64, (f, 3) int32
         The boundary of the solid.
-    witnesses : Witnesses
+    places : (p, 3) float64, (q, 3) float64
+        In the solid and on the surface: they tell what is lost.
+    bound : float
+        How far a place on the surface may be from the capsules. If one must be farther than twice that, the bound is
+        doubled, and all begins anew.
     tapered : bool
         Whether capsules may have two radii.
     progress : Progress, optional
 
     Returns
     -------
-    places : (2 s, 3) float64
+    ends : (2 s, 3) float64
     segments : (s, 2) int32
-        Rows of places: 0 and 1, 2 and 3, ... Those of a ball are equal places.
+        Rows of ends: 0 and 1, 2 and 3, ... Those of a ball are equal places.
     """
-    merging = _Merging(centres, radii, surface, witnesses, tapered, progress)
-    merging.until(count)
-    places = merging.ends[merging.lives].reshape(-1, 3)
-    return places, np.arange(len(places), dtype=np.int32).reshape(-1, 2)
+    while True:
+        witnesses = Witnesses.of(*places, bound)
+        merging = _Merging(centres, radii, surface, witnesses, tapered, progress)
+        merging.until(count)
+        farthest = merging.farthest()
+        if farthest <= _BEYOND * bound:
+            break
+        bound = max(2.0 * bound, farthest / _FIRST)
+    ends = merging.ends[merging.lives].reshape(-1, 3)
+    return ends, np.arange(len(ends), dtype=np.int32).reshape(-1, 2)
