@@ -105,7 +105,7 @@ def _cube_root(number: float) -> float:
 
 
 class _Changes:
-    """What may be done next: two elements become one, or an element goes.
+    """The changes that may be made next: two elements become one, or an element goes.
 
     A change loses a place, or gains it, if so many elements hold it as `need` says.
     """
