@@ -922,11 +922,11 @@ class BallSettings(Options):
             CoverShapes.BALLS: ("Balls", "Balls of the medial axis"),
             CoverShapes.CAPSULES: (
                 "Capsules",
-                "Capsules of one radius along the edges of a small medial mesh, as simulators have them",
+                "Capsules of one radius, each merged from balls of the axis, as simulators have them",
             ),
             CoverShapes.TAPERED: (
                 "Tapered Capsules",
-                "Capsules with a radius at each end along the edges of a small medial mesh",
+                "Capsules with a radius at each end, each merged from balls of the axis",
             ),
         },
     )

@@ -7,7 +7,7 @@ The wheel of navis, on PyPI, has five neurons as `.swc` files. Of each, the piec
 with the most nodes is made thick: the union of cones between its nodes, whose radii are smoothed, and 15 at least. The
 mesh is its surface by marching cubes. kimimaro gets the same solid as voxels, of a third of the least radius, and the
 options of its page (a unit is 8 nm). Needs scikit-image; kimimaro, compas_cgal, and skeletor with trimesh, all from
-PyPI, are left out by name where they are absent.
+PyPI, are left out by name where they are absent. A program that fails has a row that says so.
 
 ends: of the lines that a program found; right: ends of the tree within 3 radii of one of these, each one counted once;
 off: distance of places on its lines from the lines of the tree, mean and 95th percentile, in radii there; bare: the
@@ -20,6 +20,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import io
+import sys
 import time
 import zipfile
 from dataclasses import dataclass
@@ -244,8 +245,18 @@ def rows_of(name: str, tree: Tree):
             yield [sizes, program, f"left out: no {missing[0]}", *[""] * 6]
             continue
         start = time.process_time()
-        lines = run()
+        try:
+            lines = run()
+        except Exception as error:  # of any kind: a program that fails ends its row, not the table
+            yield failed(sizes, program, error)
+            continue
         yield row(sizes, program, lines, tree, time.process_time() - start)
+
+
+def failed(name: str, program: str, error: Exception) -> list[str]:
+    """The row of a program that gave no lines, with the kind of its error; what it says goes to the log."""
+    print(f"{name}, {program}: {error}", file=sys.stderr)
+    return [name, program, f"failed: {type(error).__name__}", *[""] * 6]
 
 
 def main() -> None:

@@ -4,10 +4,11 @@
     python3 lab/benchmarks/vessels.py [--svv PYTHON] [--vmtk PYTHON] [--output table.md]
 
 The vessels are those that svv (svVascularize, on PyPI) grows in a cube, with 25 ends and a root, in the Python that
---svv names, because it needs an older NumPy. The botanical tree is made here: each branch ends in two, whose squared
-radii add up to its own. Both become meshes as the neurons do, in units in which the thinnest radius is 15. Programs,
-columns, and what is left out where it is absent are those of neurons.py. VMTK runs in the Python that --vmtk names, for
-300 s at most, and is told all ends. Without a Python for them both are left out by name.
+--svv names, because it needs an older NumPy; no two runs of it grow the same, whatever seeds it is given. The botanical
+tree is made here: each branch ends in two, whose squared radii add up to its own. Both become meshes as the neurons do,
+in units in which the thinnest radius is 15. Programs, columns, and what is left out where it is absent are those of
+neurons.py. VMTK runs in the Python that --vmtk names, for 300 s at most, and is told all ends. Without a Python for
+them both are left out by name.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ import numpy as np
 _module.load()
 
 from medial_axis.core.samples.shape import Shape  # noqa: E402  (found through _module)
-from neurons import HEADER, LEAST, Tree, mesh_of, row, rows_of, volume_of  # noqa: E402
+from neurons import HEADER, LEAST, Tree, failed, mesh_of, row, rows_of, volume_of  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from skeletons import Lines  # noqa: E402
 
@@ -132,6 +133,8 @@ def of_vmtk(python: str | None, name: str, shape: Shape, tree: Tree) -> list[str
             done = subprocess.run(words, capture_output=True, text=True, check=True, timeout=LIMIT)
         except subprocess.TimeoutExpired:
             return [name, "VMTK, told the ends", f"no lines in {LIMIT} s", *[""] * 6]
+        except (subprocess.CalledProcessError, OSError) as error:
+            return failed(name, "VMTK, told the ends", error)
         read = np.load(found)
         lines = Lines(read["points"], read["edges"], read["radius"])
         return row(name, "VMTK, told the ends", lines, tree, float(done.stdout.split("SECONDS")[1]))
@@ -142,7 +145,12 @@ def rows(svv: str | None, vmtk: str | None) -> Iterator[list[str]]:
     if svv is None:
         yield ["vessels", "left out: no --svv", *[""] * 7]
     else:
-        yield from rows_of_tree("vessels", vessels(svv), vmtk)
+        try:
+            tree = vessels(svv)
+        except (subprocess.CalledProcessError, OSError) as error:
+            yield failed("vessels", "svv", error)
+            return
+        yield from rows_of_tree("vessels", tree, vmtk)
 
 
 def rows_of_tree(name: str, tree: Tree, vmtk: str | None) -> Iterator[list[str]]:

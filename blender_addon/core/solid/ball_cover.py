@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.levels import extract_level, hierarchy_of
+from ..axis.levels import hierarchy_of
 from ..axis.medial_axis import no_edges
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -27,7 +27,7 @@ from ..settings import (
     SidesFrom,
 )
 from ..small_matrices import length_of
-from .capsule_segments import segments_of
+from .capsule_segments import evenly, places_inside, segments_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +37,11 @@ if TYPE_CHECKING:
 
 # The shares of the work that are done before the hierarchy begins, before the balls are chosen, and before the segments
 # have capsules.
-_ANALYSIS, _AXIS, _SEGMENTS = 0.5, 0.8, 0.95
+_ANALYSIS, _AXIS, _MANY, _SEGMENTS = 0.5, 0.8, 0.85, 0.95
+# Capsules begin as so many times as many more balls, at most so many more.
+_TIMES, _MOST_MORE = 3, 768
+_BOUND = 1.5  # of what these leave bare: no place on the surface shall be farther from the capsules
+_INSIDE, _ON_SURFACE = 20_000, 20_000  # places that tell what a merge loses
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,20 +203,21 @@ def _capsules_of(
     tolerance: float,
     progress: Progress,
 ) -> tuple[Balls, NDArray[np.float64], int]:
-    """Return capsules along the edges of a small medial mesh, no shares, and the number of places."""
-    clean = replace(settings, form=Form.CLEAN)
-    axis = extract_level(chosen.samples, clean, progress)
-    progress.until(_SEGMENTS)
-    ends, segments = segments_of(axis, wanted.count, progress)
+    """Return capsules that began as more balls, no shares, and the number of places."""
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
+    progress.until(_MANY)
+    surface = _surface(shape, chosen)
+    tapered = wanted.shapes is CoverShapes.TAPERED
+    ends, segments = _segments(_balls(hierarchy), surface, chosen, wanted.count, tapered, progress)
     progress.until(1.0)
     with native.own_errors() as module:
         found = module.cover_by_capsules(
             ends,
             segments,
-            *_surface(shape, chosen),
+            *surface,
             count=wanted.count,
             mode=getattr(module.CoverMode, wanted.mode.name),
-            tapered=wanted.shapes is CoverShapes.TAPERED,
+            tapered=tapered,
             tolerance=tolerance,
             progress=progress.part(),
         )
@@ -228,6 +233,31 @@ def _capsules_of(
         edges=np.ascontiguousarray(row[~is_ball], np.int32),
     )
     return balls, np.empty(0), found.places
+
+
+def _segments(
+    candidates: tuple[NDArray[np.float64], NDArray[np.float64]],
+    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+    chosen: ChosenSamples,
+    count: int,
+    tapered: bool,
+    progress: Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return ends and segments for capsules: those of more balls INSIDE than are wanted, which are merged."""
+    more = count + min(_TIMES * count, _MOST_MORE)
+    with native.own_errors() as module:
+        found = module.cover_by_balls(
+            *candidates,
+            *surface,
+            count=more,
+            mode=module.CoverMode.INSIDE,
+            refine=more <= MOST_REFINED,
+            progress=progress.part(),
+        )
+    progress.until(_SEGMENTS)
+    places = places_inside(*surface, _INSIDE), evenly(chosen.samples.points, _ON_SURFACE)
+    balls = candidates[0][found.chosen], found.radii
+    return segments_of(*balls, count, surface, places, _BOUND * found.farthest, tapered, progress)
 
 
 def _figures_of(found: Any, mode: CoverMode) -> tuple[float, float, float]:

@@ -1,62 +1,305 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The edges of a small medial mesh, as segments for capsules."""
+"""Segments for few capsules: those of many balls, merged two by two while that loses least."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..machine.native import own_errors
-from .reduce import SphereMesh, few_spheres, small_mesh
+from ..small_matrices import dot
+from .capsule_fits import fitting_radii, gaps
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..axis.medial_axis import MedialAxis
     from ..machine.progress import Progress
 
+    Element = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]  # see `_Merging`
+    Effect = tuple[NDArray[np.int64], NDArray[np.int8], NDArray[np.int8]]  # see `_effect`
+    Proposal = tuple[tuple[int, int], Element | None, Effect]
 
-def segments_of(
-    axis: MedialAxis, count: int, progress: Progress | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return the edges of a small medial mesh that has at most so many, if its topology allows that.
+_NEAR = 10  # elements with which one may merge
+_IN_BOX = 1_000_000  # places of a lattice that are looked at, at most
+_BEYOND = 2.0  # times the bound: if places are farther, another bound is tried
+_FIRST = 16.0  # the bound is this part of the distance at least, should the first one be 0
+_LONGER = 1.25
+_NEWTON = 12  # steps; each doubles the digits
+_ROUND = 16  # a round of proposals follows when one of so many elements is new
 
-    The fit of a small mesh moves vertices off the axis where it bends, and even out of the solid where there are few.
-    Capsules have less room there, so each vertex becomes the nearest one of the axis.
+
+@dataclass(frozen=True, eq=False)
+class Witnesses:
+    """Places that tell what a choice of capsules loses.
 
     Parameters
     ----------
-    axis : MedialAxis
-        The inner axis.
+    places : (q, 3) float64
+        Ascending in x.
+    reach : (q,) float64
+        How near to a capsule each must be: 0 in the solid, a bound on the surface.
+    weight : (q,) float64
+        What it costs to leave it.
+    """
+
+    places: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    weight: NDArray[np.float64]
+
+    @staticmethod
+    def of(inside: NDArray[np.float64], surface: NDArray[np.float64], bound: float) -> Witnesses:
+        """A place on the surface that is farther than the bound costs more than all places inside."""
+        places = np.concatenate([inside, surface])
+        order = np.argsort(places[:, 0], kind="stable")
+        is_surface = order >= len(inside)
+        weight = np.where(is_surface, 1.0 + len(inside), 1.0)
+        return Witnesses(places[order], np.where(is_surface, bound, 0.0), weight)
+
+    def held(self, ends: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return the rows of places that one capsule, (2, 3) and (2,), is near enough to, ascending."""
+        margin = radii.max() + self.reach.max(initial=0.0)
+        low, high = ends.min(axis=0) - margin, ends.max(axis=0) + margin
+        begin, end = np.searchsorted(self.places[:, 0], [low[0], high[0]])
+        part = self.places[begin:end]
+        near = np.flatnonzero(((part[:, 1:] >= low[1:]) & (part[:, 1:] <= high[1:])).all(axis=1))
+        near += begin
+        return near[gaps(self.places[near], ends, radii) <= self.reach[near]]
+
+
+def evenly(places: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Return at most so many of the places, one in each so many rows."""
+    return places[:: max(1, -(-len(places) // count))]
+
+
+def places_inside(
+    vertices: NDArray[np.float64], triangles: NDArray[np.int32], count: int
+) -> NDArray[np.float64]:
+    """Return about so many places of a cubic lattice in a solid; fewer if its box is very much larger than it."""
+    low, size = vertices.min(axis=0), np.ptp(vertices, axis=0)
+    a, b, c = np.moveaxis(vertices[triangles] - low, 1, 0)
+    volume = abs(float(dot(a, np.cross(b, c)).sum())) / 6.0
+    box = float(size[0] * size[1] * size[2])
+    steps = _steps(size.tolist(), _cube_root(max(volume / count, box / _IN_BOX)))
+    axes = [(np.arange(n) + 0.5) * (length / n) for n, length in zip(steps, size, strict=True)]
+    places = low + np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    with own_errors() as module:
+        return places[np.asarray(module.winding_number(places, vertices, triangles)) > 0.5]
+
+
+def _steps(size: list[float], step: float) -> list[int]:
+    """Return how many steps of about this length fit in a box; of a longer one, if there were too many places."""
+    while math.prod(steps := [max(1, round(length / step)) for length in size]) > _IN_BOX:
+        step *= _LONGER
+    return steps
+
+
+def _cube_root(number: float) -> float:
+    """Return the cube root of a positive number by Newton's method; that of the C library differs between systems."""
+    root = math.ldexp(1.0, math.frexp(number)[1] // 3 + 1)
+    for _ in range(_NEWTON):
+        root = (2.0 * root + number / (root * root)) / 3.0
+    return root
+
+
+class _Changes:
+    """The changes that may be made next: two elements become one, or an element goes.
+
+    A change loses a place, or gains it, if so many elements hold it as `need` says.
+    """
+
+    def __init__(self) -> None:
+        self.gone: list[tuple[int, int]] = []
+        self.new: list[Element | None] = []
+        self.closed = np.zeros(0, np.bool_)
+        self._owner = np.zeros(0, np.int64)
+        self._place = np.zeros(0, np.int64)
+        self._need = np.zeros(0, np.int8)
+        self._sign = np.zeros(0, np.int8)
+
+    def add(self, proposals: list[Proposal]) -> None:
+        """Add tuples of the elements that go, of the new one or None, and of what `_effect` says."""
+        if not proposals:
+            return
+        first = len(self.gone)
+        self.gone += [gone for gone, _, _ in proposals]
+        self.new += [new for _, new, _ in proposals]
+        effects = [effect for _, _, effect in proposals]
+        owner = np.repeat(np.arange(len(effects)) + first, [len(effect[0]) for effect in effects])
+        columns = [np.concatenate(column) for column in zip(*effects, strict=True)]
+        self._owner = np.concatenate([self._owner, owner])
+        self._place = np.concatenate([self._place, columns[0]])
+        self._need = np.concatenate([self._need, columns[1]])
+        self._sign = np.concatenate([self._sign, columns[2]])
+        self.closed = np.concatenate([self.closed, np.zeros(len(effects), np.bool_)])
+
+    def close(self, elements: tuple[int, int]) -> None:
+        """Forget the changes of these elements."""
+        self.closed |= np.isin(np.array(self.gone), elements).any(axis=1)
+        kept = ~self.closed[self._owner]
+        self._owner, self._place = self._owner[kept], self._place[kept]
+        self._need, self._sign = self._need[kept], self._sign[kept]
+
+    def cheapest(self, holders: NDArray[np.int32], weight: NDArray[np.float64]) -> int:
+        """Return the row of the change that loses least, of equal ones the first."""
+        acts = holders[self._place] == self._need
+        loss = np.where(acts, self._sign * weight[self._place], 0.0)
+        cost = np.bincount(self._owner, loss, minlength=len(self.gone))
+        return int(np.where(self.closed, np.inf, cost).argmin())
+
+
+class _Merging:
+    """Balls and capsules that become fewer: the elements, each with its ends, its radii and the places it holds."""
+
+    def __init__(
+        self,
+        centres: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+        witnesses: Witnesses,
+        tapered: bool,
+        progress: Progress | None,
+    ) -> None:
+        self.ends = np.repeat(centres[:, None], 2, axis=1)
+        self.radii = np.repeat(radii[:, None], 2, axis=1)
+        self.lives = np.ones(len(radii), np.bool_)
+        self._surface, self._witnesses = surface, witnesses
+        self._tapered, self._progress = tapered, progress
+        self._held = [witnesses.held(*one) for one in zip(self.ends, self.radii, strict=True)]
+        self._holders = np.zeros(len(witnesses.places), np.int32)
+        for rows in self._held:
+            self._holders[rows] += 1
+        self._changes = _Changes()
+
+    def until(self, count: int) -> None:
+        """Merge and leave out until so many are left."""
+        fresh = list(range(len(self.lives)))
+        while (left := int(self.lives.sum())) > count:
+            if len(fresh) * _ROUND >= left:
+                self._propose(fresh)
+                fresh = []
+            fresh += self._apply(self._changes.cheapest(self._holders, self._witnesses.weight))
+            fresh = [row for row in fresh if self.lives[row]]
+
+    def farthest(self) -> float:
+        """Return how far the farthest place on the surface is, or 0 if all are within the bound."""
+        bare = (self._holders == 0) & (self._witnesses.reach > 0.0)
+        places = self._witnesses.places[bare]
+        away = np.full(len(places), np.inf)
+        for row in np.flatnonzero(self.lives):
+            away = np.minimum(away, gaps(places, self.ends[row], self.radii[row]))
+        return float(away.max(initial=0.0))
+
+    def _propose(self, rows: list[int]) -> None:
+        """Add the changes of new elements: each may go, or merge with one that is near."""
+        none = np.zeros(0, np.int64)
+        self._changes.add([((i, i), None, self._effect(i, i, none)) for i in rows])
+        pairs = sorted({(min(i, j), max(i, j)) for i in rows for j in self._near(i)})
+        owner, ends = self._segments(pairs)
+        if not len(owner):
+            return
+        part = self._progress.part(0.1) if self._progress else None
+        radii, fits = fitting_radii(ends, self._surface, self._tapered, part)
+        proposals: list[Proposal] = []
+        for row in np.flatnonzero(fits):
+            held = self._witnesses.held(ends[row], radii[row])
+            i, j = pair = pairs[owner[row]]
+            proposals.append((pair, (ends[row], radii[row], held), self._effect(i, j, held)))
+        self._changes.add(proposals)
+
+    def _near(self, row: int) -> NDArray[np.int64]:
+        """Return the elements that are nearest by the distance between balls at ends."""
+        rows = np.flatnonzero(self.lives)
+        away = self.ends[rows, :, None] - self.ends[row]
+        gap = np.sqrt(dot(away, away)) - self.radii[rows, :, None] - self.radii[row]
+        order = rows[np.argsort(gap.min(axis=(1, 2)), kind="stable")]
+        return order[order != row][:_NEAR]
+
+    def _segments(self, pairs: list[tuple[int, int]]) -> tuple[NDArray, NDArray]:
+        """Return all segments from an end of one element to an end of the other, and the row of the pair of each."""
+        if not pairs:
+            return np.zeros(0, np.int64), np.zeros((0, 2, 3))
+        first, second = (self.ends[[pair[k] for pair in pairs]] for k in (0, 1))
+        ends = np.stack([first[:, [0, 0, 1, 1]], second[:, [0, 1, 0, 1]]], axis=2)
+        ball = [(each[:, 0] == each[:, 1]).all(axis=1) for each in (first, second)]
+        twice = np.zeros((len(pairs), 4), np.bool_)  # a ball has one end
+        twice[:, 2:] |= ball[0][:, None]
+        twice[:, 1::2] |= ball[1][:, None]
+        owner = np.repeat(np.arange(len(pairs))[:, None], 4, axis=1)
+        return owner[~twice], ends[~twice]
+
+    def _effect(self, i: int, j: int, held: NDArray[np.int64]) -> Effect:
+        """Return places, how many elements must hold each for it to change, and 1 if it is lost, -1 if gained."""
+        before = np.concatenate([self._held[i], self._held[j]]) if i != j else self._held[i]
+        before, holders = np.unique(before, return_counts=True)
+        lost = ~np.isin(before, held, assume_unique=True)
+        gained = np.setdiff1d(held, before, assume_unique=True)
+        need = np.concatenate([holders[lost], np.zeros(len(gained), np.int64)])
+        sign = np.repeat(np.array([1, -1], np.int8), [int(lost.sum()), len(gained)])
+        return np.concatenate([before[lost], gained]), need.astype(np.int8), sign
+
+    def _apply(self, row: int) -> list[int]:
+        """Make a change; return the new element, if there is one."""
+        (i, j), new = self._changes.gone[row], self._changes.new[row]
+        self._changes.close((i, j))
+        for gone in {i, j}:
+            self.lives[gone] = False
+            self._holders[self._held[gone]] -= 1
+        if new is None:
+            return []
+        self.ends[i], self.radii[i], self._held[i] = new
+        self.lives[i] = True
+        self._holders[self._held[i]] += 1
+        return [i]
+
+
+def segments_of(
+    centres: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    count: int,
+    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+    places: tuple[NDArray[np.float64], NDArray[np.float64]],
+    bound: float,
+    tapered: bool,
+    progress: Progress | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return segments round which few capsules hold most of what many balls do.
+
+    Two elements, balls or capsules, become one capsule from an end of one to an end of the other, or one of them is
+    left out, whichever loses least, until there are so many.
+
+    Parameters
+    ----------
+    centres : (n, 3) float64
+    radii : (n,) float64
+        Balls in the solid.
     count : int
+    surface : (v, 3) float64, (f, 3) int32
+        The boundary of the solid.
+    places : (p, 3) float64, (q, 3) float64
+        In the solid and on the surface: they tell what is lost.
+    bound : float
+        How far a place on the surface may be from the capsules. If one must be farther than twice that, the bound is
+        doubled, and all begins anew.
+    tapered : bool
+        Whether capsules may have two radii.
     progress : Progress, optional
 
     Returns
     -------
-    places : (v, 3) float64
-        The vertices of the axis.
+    ends : (2 s, 3) float64
     segments : (s, 2) int32
-        Rows of places, each pair once. A vertex without an edge is a segment between itself and itself.
+        Rows of ends: 0 and 1, 2 and 3, ... Those of a ball are equal places.
     """
-    wanted = count + 1  # a tree has one vertex more than edges; sheets have fewer
-    mesh = small_mesh(axis, wanted, progress)
-    segments = _segments(mesh)
-    while len(segments) > count and wanted > 1:
-        wanted = min(wanted - 1, max(1, wanted * count // len(segments)))
-        mesh = few_spheres(mesh, wanted, progress)
-        segments = _segments(mesh)
-    with own_errors() as module:
-        row = module.nearest(axis.vertices, mesh.vertices)
-    ends = np.sort(row[segments], axis=1)
-    one = segments[:, 0] == segments[:, 1]
-    return axis.vertices, np.unique(ends[one | (ends[:, 0] != ends[:, 1])], axis=0)
-
-
-def _segments(mesh: SphereMesh) -> NDArray[np.int32]:
-    """Return all edges, and a pair of equal rows for each vertex without one."""
-    sides = mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    edges = np.unique(np.sort(np.concatenate([sides, mesh.edges]), axis=1), axis=0)
-    alone = np.setdiff1d(np.arange(len(mesh.vertices)), edges)
-    pairs = np.column_stack([alone, alone])
-    return np.ascontiguousarray(np.concatenate([edges, pairs]), np.int32)
+    while True:
+        witnesses = Witnesses.of(*places, bound)
+        merging = _Merging(centres, radii, surface, witnesses, tapered, progress)
+        merging.until(count)
+        farthest = merging.farthest()
+        if farthest <= _BEYOND * bound:
+            break
+        bound = max(2.0 * bound, farthest / _FIRST)
+    ends = merging.ends[merging.lives].reshape(-1, 3)
+    return ends, np.arange(len(ends), dtype=np.int32).reshape(-1, 2)
