@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Modules for Windows: what is read of them, what is refused, how they are made. No test needs a Windows."""
 
+import re
 import shutil
 import struct
 import subprocess
 import sys
+import sysconfig
 import tarfile
 from pathlib import Path
 
@@ -131,6 +133,30 @@ def test_module_for_windows_needs_python_and_windows_alone(tmp_path, fault, told
     else:
         with pytest.raises(SystemExit, match=told):
             check_module.check(module)
+
+
+def test_a_unit_that_sees_windows_is_compiled_alone():
+    """Its macros are words such as near and far, which the units compiled together with it would see, too."""
+    native = ROOT / "native"
+    files = [path for end in ("cpp", "h") for path in native.rglob(f"*.{end}")]
+    seeing = [path for path in files if "#include <windows.h>" in path.read_text("utf-8")]
+    assert [path.suffix for path in seeing] == [".cpp"], "a header would bring them everywhere"
+    rules = (native / "CMakeLists.txt").read_text("utf-8")
+    for unit in seeing:
+        name = re.escape(unit.relative_to(native).as_posix())
+        assert re.search(rf"\({name} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON\)", rules)
+
+
+def test_the_module_gives_out_its_own_entry_alone(tmp_path):
+    """Not that of pybind11, which it calls. Elsewhere the linker would hide it, on Windows none does."""
+    (tmp_path / "docstrings.h").write_text("")
+    folders = [tmp_path, *(ROOT / "native" / name for name in ("include", "medial", "python"))]
+    words = ["-std=c++20", "-E", "-P", "-DPYBIND11_EXPORT=GIVEN_OUT", *(f"-I{f}" for f in folders)]
+    words.append(f"-I{sysconfig.get_paths()['include']}")
+    source = ROOT / "native" / "python" / "module.cpp"
+    text = subprocess.check_output(["g++", *words, source], text=True)
+    assert set(re.findall(r"GIVEN_OUT PyObject\s*\*\s*(\w+)", text)) == {"PyInit__medial"}
+    assert "initialise_medial" in text
 
 
 def test_headers_for_windows_have_its_configuration(tmp_path):
