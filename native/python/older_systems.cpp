@@ -29,8 +29,9 @@ int pthread_once(pthread_once_t* flag, void (*call)()) { return pthread_once_of_
 // An older C library cannot tell whether a process has one thread.
 char __libc_single_threaded = 0;
 
-// The reference of an exception is counted by a copy that is never destroyed. Both are the library's
-// by version: units in which the compiler puts no copy inline have their own, which call these here.
+// The reference of an exception is counted by a copy that is never destroyed. Both are the
+// library's by version: units in which the compiler puts no copy inline have their own, which call
+// these here.
 void copy_exception(void* to, const void* from);
 void destroy_exception(void* one);
 void add_reference(void* one) __asm__("_ZNSt15__exception_ptr13exception_ptr9_M_addrefEv");
