@@ -20,7 +20,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from native.packaging import macho, paths, zig
+from native.packaging import macho, paths, pe, zig
 
 FORBIDDEN = re.compile(r"lib(tbb|gmp|mpfr|python)")
 # Functions whose last bits differ between C libraries and processors; base/portable_math.h has others for them.
@@ -32,7 +32,11 @@ INEXACT = re.compile(
 # that tells whether a point is inside closed faces, which all directions tell alike, and log the level at which
 # a search for a cell begins. In remeshing cos is asked for 160 degrees alone, beyond which a triangle is a cap.
 OF_CGAL = {"sincos", "log", "cos"}
-OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
+# By processor: what every Windows has. For arm64 it is 10 or newer, whose C library is this family.
+OF_WINDOWS = {
+    pe.X64: re.compile(r"KERNEL32\.dll|msvcrt\.dll"),
+    pe.ARM64: re.compile(r"(KERNEL32|ntdll|api-ms-win-crt-[a-z]+-l1-1-0)\.dll"),
+}
 OF_MACS = ["/usr/lib/libSystem.B.dylib"]
 OLDEST_MACOS = (11, 0)
 PAGE_OF_MACS = {macho.X64: 4096, macho.ARM64: 16384}
@@ -111,19 +115,32 @@ def names_of_macos(processor):
 
 
 def check_windows(module):
-    text = output("x86_64-w64-mingw32-objdump", "-p", module)
-    libraries = re.findall(r"DLL Name: (\S+)", text)
-    python = re.sub(r".*\.cp(\d+)-.*", r"python\1.dll", module.name)
-    unwanted = set(libraries) - {python, *OF_WINDOWS}
-    if unwanted or python not in libraries:
-        refuse(module, f"must need {python} and what every Windows has, found {libraries}")
-    names = re.search(r"^\[Ordinal/Name Pointer\] Table.*\n((?:\t.*\n)*)", text, re.MULTILINE)
-    only_entry(module, [line.split()[-1] for line in names[1].splitlines()] if names else [])
+    """Names of Python that no library has are known to the linker, which has a list of them."""
+    image = pe.read(module.read_bytes())
+    digits, processor = re.fullmatch(r"_medial\.cp(\d+)-win_(\w+)", module.stem).groups()
+    if pe.NAMES.get(image.processor) != processor:
+        refuse(module, f"must be for {processor}, found {image.processor:#x}")
+    python = f"python{digits}.dll"
+    found = sorted(image.taken)
+    if python not in found or not all(
+        name == python or OF_WINDOWS[image.processor].fullmatch(name) for name in found
+    ):
+        refuse(module, f"must need {python} and what every Windows has, found {found}")
+    only_entry(module, image.exported)
+    if image.processor == pe.ARM64:
+        check_windows_on_arm(module, image)
     size = module.stat().st_size / 1e6
     return [
-        f"{module.name}: {size:.1f} MB, needs {', '.join(libraries)}",
+        f"{module.name}: {size:.1f} MB, needs {', '.join(found)}",
         f"  exports {ENTRY} only",
     ]
+
+
+def check_windows_on_arm(module, image):
+    """Windows loads nothing else there. (For x64 mingw-w64 puts its own functions into the module.)"""
+    calls_nothing_inexact(module, set().union(*image.taken.values()) - {"sin"})  # Clang's sincos
+    if not (image.movable and image.guarded):
+        refuse(module, "must lie at any address and keep data from being run, and does not")
 
 
 def only_entry(module, exported):

@@ -54,13 +54,18 @@ _BY_ZIG = """LLVM's libc++, libc++abi and compiler-rt: Apache-2.0 WITH LLVM-exce
 They are compiled into modules for systems other than Linux and Windows on x86-64. These come from: {origin}.
 
 {terms}"""
-_OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so")
+_FOR_WINDOWS_BY_ZIG = """mingw-w64: ZPL-2.1 and others
+Its start of a library is in the modules for Windows on arm64, as zig brings it.
+
+{terms}"""
+_OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so", "-win_arm64.pyd")
 # By the folder in which headers of Pythons lie: how names of modules compiled with them end, and words for the system.
 _SYSTEM_OF_HEADERS = {
     "python": ("-x86_64-linux-gnu.so", ""),
     "linux-arm64": ("-aarch64-linux-gnu.so", " for Linux on arm64"),
     "macos": ("-darwin.so", " for Macs"),
     "windows": ("-win_amd64.pyd", " for Windows"),
+    "windows-arm64": ("-win_arm64.pyd", " for Windows on arm64"),
 }
 _RULE = "=" * 100
 
@@ -68,7 +73,8 @@ _RULE = "=" * 100
 def text(modules: list[str]) -> str:
     """The whole file for a zip with the modules of these names."""
     # Modules by Microsoft's compiler come from another machine and have none of mingw-w64.
-    windows = any(name.endswith(".pyd") for name in modules) and (paths.BUILD / "mingw").is_dir()
+    windows = any(name.endswith("-win_amd64.pyd") for name in modules)
+    windows = windows and (paths.BUILD / "mingw").is_dir()
     components = [*EVERYWHERE, *(WINDOWS if windows else ())]
     parts = [_INTRODUCTION, *map(_part, components), *_parts_of_zig(modules), _lesser_licence()]
     if others := _newer_pybind11(modules):
@@ -87,8 +93,13 @@ def _parts_of_zig(modules: list[str]) -> list[str]:
     origin = zig.origin()
     if origin is None or not any(name.endswith(_OF_ZIG) for name in modules):
         return []
-    terms = zig.program().parent / "lib/libcxx/LICENSE.TXT"
-    return [_BY_ZIG.format(origin=", ".join(origin), terms=terms.read_text(encoding="utf-8"))]
+    library = zig.program().parent / "lib"
+    terms = (library / "libcxx/LICENSE.TXT").read_text(encoding="utf-8")
+    parts = [_BY_ZIG.format(origin=", ".join(origin), terms=terms)]
+    if any(name.endswith("-win_arm64.pyd") for name in modules):
+        terms = (library / "libc/mingw/COPYING").read_text(encoding="utf-8")
+        parts.append(_FOR_WINDOWS_BY_ZIG.format(terms=terms))
+    return parts
 
 
 def _package(component: Component) -> tuple[str, str]:

@@ -41,10 +41,15 @@ void bind_product(py::module_& m) {
 }  // namespace medial::python
 
 // In a subinterpreter the entry point that pybind11 writes would wait for itself for ever. So it
-// gets another name, and the module's own entry point refuses first.
+// gets another name, which no library gives out (on Windows it would), and the module's own entry
+// point refuses first.
+#pragma push_macro("PYBIND11_EXPORT")
+#undef PYBIND11_EXPORT
+#define PYBIND11_EXPORT
 #define PyInit__medial initialise_medial
 PYBIND11_MODULE(_medial, m) { medial::python::bind_product(m); }
 #undef PyInit__medial
+#pragma pop_macro("PYBIND11_EXPORT")
 
 // NOLINTNEXTLINE(bugprone-reserved-identifier): Python asks for this name
 extern "C" PYBIND11_EXPORT PyObject* PyInit__medial() {

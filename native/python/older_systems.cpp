@@ -15,6 +15,8 @@
 #endif
 __asm__(".symver log_of_old, log@" OLDEST);
 __asm__(".symver pthread_once_of_old, pthread_once@" OLDEST);
+__asm__(".symver copy_exception, _ZNSt15__exception_ptr13exception_ptrC1ERKS0_@CXXABI_1.3.3");
+__asm__(".symver destroy_exception, _ZNSt15__exception_ptr13exception_ptrD1Ev@CXXABI_1.3.3");
 
 // NOLINTBEGIN: the names are those that the compiler asks for.
 extern "C" {
@@ -27,10 +29,11 @@ int pthread_once(pthread_once_t* flag, void (*call)()) { return pthread_once_of_
 // An older C library cannot tell whether a process has one thread.
 char __libc_single_threaded = 0;
 
-// The reference of an exception is counted by a copy that is never destroyed.
-void copy_exception(void* to,
-                    const void* from) __asm__("_ZNSt15__exception_ptr13exception_ptrC1ERKS0_");
-void destroy_exception(void* one) __asm__("_ZNSt15__exception_ptr13exception_ptrD1Ev");
+// The reference of an exception is counted by a copy that is never destroyed. Both are the
+// library's by version: units in which the compiler puts no copy inline have their own, which call
+// these here.
+void copy_exception(void* to, const void* from);
+void destroy_exception(void* one);
 void add_reference(void* one) __asm__("_ZNSt15__exception_ptr13exception_ptr9_M_addrefEv");
 void release_reference(void* one) __asm__("_ZNSt15__exception_ptr13exception_ptr10_M_releaseEv");
 void throw_bad_length() __asm__("_ZSt28__throw_bad_array_new_lengthv");

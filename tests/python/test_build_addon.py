@@ -7,7 +7,6 @@ import re
 import struct
 import subprocess
 import sys
-import tarfile
 import threading
 import zipfile
 
@@ -16,7 +15,6 @@ import pytest
 import build_addon
 from native.packaging import (
     check_module,
-    headers_for_windows,
     licences,
     macho,
     modules,
@@ -390,71 +388,6 @@ def test_module_that_takes_sines_from_the_c_library_is_refused(tmp_path):
         check_module.check(module)
 
 
-WINDOWS_MODULE = """
-\tDLL Name: python311.dll
-\tDLL Name: KERNEL32.dll
-
-[Ordinal/Name Pointer] Table
-\t[   0] PyInit__medial
-
-The Function Table
-"""
-
-
-@pytest.mark.parametrize(
-    "change, told",
-    [
-        (("", ""), None),
-        (("python311", "python313"), "must need python311.dll and what every Windows has"),
-        (("KERNEL32.dll", "libstdc++-6.dll"), "must need python311.dll and what every Windows has"),
-        (("PyInit__medial", "main"), "must export PyInit__medial only, found 1: .'main'"),
-        (("medial\n\n", "medial\n\t[   1] other\n\n"), "must export PyInit__medial only, found 2"),
-    ],
-)
-def test_module_for_windows_needs_python_and_windows_alone(tmp_path, monkeypatch, change, told):
-    module = tmp_path / "_medial.cp311-win_amd64.pyd"
-    module.write_bytes(b"123")
-    monkeypatch.setattr(check_module, "output", lambda *words: WINDOWS_MODULE.replace(*change))
-    if told is None:
-        assert check_module.check(module)[0].endswith("needs python311.dll, KERNEL32.dll")
-    else:
-        with pytest.raises(SystemExit, match=told):
-            check_module.check(module)
-
-
-def test_headers_for_windows_have_its_configuration(tmp_path):
-    names = (
-        "Include/Python.h",
-        "Include/cpython/a.h",
-        "PC/pyconfig.h.in",
-        "Modules/b.h",
-        "pyconfig.h",
-    )
-    with tarfile.open(tmp_path / "source.tar", "w") as archive:
-        for name in names:
-            (tmp_path / "file").write_text(name)
-            archive.add(tmp_path / "file", f"Python-3.13.5/{name}")
-    headers_for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
-    found = sorted(
-        str(path.relative_to(tmp_path / "headers"))
-        for path in (tmp_path / "headers").rglob("*")
-        if path.is_file()
-    )
-    assert found == ["Python.h", "cpython/a.h", "pyconfig.h"]
-    assert (tmp_path / "headers/pyconfig.h").read_text() == "PC/pyconfig.h.in"
-
-
-def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, monkeypatch):
-    source = 'extern "C" { int PyInit(){return 0;} int _PyOther(){return 0;} int PyExc_A = 1; int other; }'
-    monkeypatch.setattr(headers_for_windows, "DLLTOOL", "true")  # it may not be installed
-    headers_for_windows.make_import_library(
-        compile_library(tmp_path, source), "python399", tmp_path
-    )
-    text = (tmp_path / "python399.def").read_text().splitlines()
-    assert text[:2] == ["LIBRARY python399.dll", "EXPORTS"]
-    assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]
-
-
 @pytest.mark.parametrize(
     "name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"]
 )
@@ -555,17 +488,6 @@ def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
     arm = "lib/_medial.cpython-313-aarch64-linux-gnu.so"
     assert "9.9 (Python 3.13 for Linux on arm64)." in licences.text([LINUX, arm])
     assert "9.9" not in licences.text([LINUX.replace("311", "313")])
-
-
-def test_licences_of_mingw_belong_to_what_was_compiled_here(tmp_path, monkeypatch):
-    """Modules of Microsoft's compiler, from another machine, have none of it."""
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    wanted = licences.Component("mingw-w64", "/no/such/*.a", "MIT and others")
-    monkeypatch.setattr(licences, "WINDOWS", (wanted,))
-    assert "mingw-w64" not in licences.text(["lib/_medial.cp311-win_amd64.pyd"])
-    (tmp_path / "mingw").mkdir()
-    with pytest.raises(Failure, match=r"Expected mingw-w64 as /no/such/\*\.a"):
-        licences.text(["lib/_medial.cp311-win_amd64.pyd"])
 
 
 def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):

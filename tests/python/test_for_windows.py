@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Modules for Windows: what is read of them, what is refused, how they are made. No test needs a Windows."""
+
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import sysconfig
+import tarfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from native.packaging import (  # noqa: E402 - found through the line above
+    check_module,
+    headers_for_windows,
+    licences,
+    needs,
+    other_systems,
+    paths,
+    pe,
+    zig,
+)
+from native.packaging.terminal import Failure  # noqa: E402
+
+START, PLACE = 0x1000, 0x400  # of the only section, in memory and in the file
+TAKEN = {"python311.dll": ("PyList_New",), "KERNEL32.dll": ("VirtualAlloc", "Sleep")}
+
+
+def library(
+    processor=pe.ARM64,
+    taken=TAKEN,
+    exported=("PyInit__medial",),
+    movable=True,
+    guarded=True,
+    kind=0x20B,
+):
+    """A library without code: one section with the names that it takes and gives."""
+    body = bytearray()
+
+    def put(data):
+        body.extend(data + bytes(-len(data) % 8))
+        return START + len(body) - len(data) - (-len(data) % 8)
+
+    rows = []
+    for name, functions in taken.items():
+        entries = [
+            1 << 63 | function
+            if isinstance(function, int)
+            else put(b"\1\0" + function.encode() + b"\0")
+            for function in functions
+        ]
+        table = put(struct.pack(f"<{len(entries) + 1}Q", *entries, 0))
+        rows.append(struct.pack("<5I", table, 0, 0, put(name.encode() + b"\0"), table))
+    imports = put(b"".join(rows) + bytes(20))
+    names = put(b"".join(struct.pack("<I", put(name.encode() + b"\0")) for name in exported))
+    exports = put(struct.pack("<10I", 0, 0, 0, 0, 1, 0, len(exported), 0, names, 0))
+    flags = 0x40 * movable | 0x100 * guarded
+    directories = [exports, 1, imports, 1, 0, 0, 0, 0, 0, 0, START * movable, 1]
+    options = struct.pack("<H68xH40x", kind, flags) + struct.pack("<12I", *directories)
+    head = b"MZ".ljust(60, b"\0") + struct.pack("<I", 64) + b"PE\0\0"
+    head += struct.pack("<2H3I2H", processor, 1, 0, 0, 0, len(options), 0) + options
+    head += struct.pack("<8s4I16x", b".all", len(body), START, len(body), PLACE)
+    return head.ljust(PLACE, b"\0") + bytes(body)
+
+
+def test_what_a_library_says_is_read():
+    found = pe.read(library(taken={"a.dll": ("one", 7), "b.dll": ("two",)}, exported=("x", "yy")))
+    names = {"a.dll": {"one", "#7"}, "b.dll": {"two"}}
+    assert found == pe.Image(pe.ARM64, names, ["x", "yy"], True, True)
+    bare = pe.read(library(pe.X64, {}, (), movable=False, guarded=False))
+    assert bare == pe.Image(pe.X64, {}, [], False, False)
+    with pytest.raises(ValueError, match="no library for Windows"):
+        pe.read(b"\x7fELF" + bytes(80))
+    with pytest.raises(ValueError, match="no library of 64 bits"):
+        pe.read(library(kind=0x10B))
+
+
+def with_names(**names):
+    return {"taken": {**TAKEN, **{name.replace("_", "."): some for name, some in names.items()}}}
+
+
+@pytest.mark.parametrize(
+    "fault, told",
+    [
+        ({}, None),
+        (with_names(ntdll_dll=("NtClose",)), None),
+        ({"taken": {**TAKEN, "api-ms-win-crt-math-l1-1-0.dll": ("log", "sqrt")}}, None),
+        ({"processor": pe.X64}, "must be for arm64, found 0x8664"),
+        ({"taken": {"KERNEL32.dll": ()}}, "must need python311.dll and what every Windows has, f"),
+        (with_names(python313_dll=()), "must need python311.dll and what every Windows has, fou"),
+        (with_names(msvcrt_dll=()), "must need python311.dll and what every Windows has, found"),
+        ({"exported": ()}, "must export PyInit__medial only, found 0"),
+        ({"exported": ("main",)}, "must export PyInit__medial only, found 1: .'main'"),
+        ({"exported": ("PyInit__medial", "x")}, "must export PyInit__medial only, found 2"),
+        (with_names(ntdll_dll=("pow",)), "must not call pow of the C library"),
+        ({"movable": False}, "must lie at any address and keep data from being run"),
+        ({"guarded": False}, "must lie at any address and keep data from being run"),
+    ],
+)
+def test_module_for_windows_on_arm64_needs_python_and_windows_alone(tmp_path, fault, told):
+    module = tmp_path / "_medial.cp311-win_arm64.pyd"
+    module.write_bytes(library(**fault))
+    if told is None:
+        (needed, exports) = check_module.check(module)
+        assert "needs KERNEL32.dll, " in needed and needed.endswith("python311.dll")
+        assert "exports PyInit__medial only" in exports
+    else:
+        with pytest.raises(SystemExit, match=told):
+            check_module.check(module)
+
+
+@pytest.mark.parametrize(
+    "fault, told",
+    [
+        ({}, None),
+        (with_names(msvcrt_dll=("free",)), None),
+        ({"processor": pe.ARM64}, "must be for amd64, found 0xaa64"),
+        ({"taken": {**TAKEN, "libstdc++-6.dll": ()}}, "must need python311.dll and what every W"),
+        ({"taken": {**TAKEN, "api-ms-win-crt-math-l1-1-0.dll": ()}}, "must need python311.dll"),
+        ({"exported": ("PyInit__medial", "x")}, "must export PyInit__medial only, found 2"),
+    ],
+)
+def test_module_for_windows_needs_python_and_windows_alone(tmp_path, fault, told):
+    module = tmp_path / "_medial.cp311-win_amd64.pyd"
+    module.write_bytes(library(**{"processor": pe.X64, **fault}))
+    if told is None:
+        assert "needs KERNEL32.dll, " in check_module.check(module)[0]
+    else:
+        with pytest.raises(SystemExit, match=told):
+            check_module.check(module)
+
+
+def test_a_unit_that_sees_windows_is_compiled_alone():
+    """Its macros are words such as near and far, which the units compiled together with it would see, too."""
+    native = ROOT / "native"
+    files = [path for end in ("cpp", "h") for path in native.rglob(f"*.{end}")]
+    seeing = [path for path in files if "#include <windows.h>" in path.read_text("utf-8")]
+    assert [path.suffix for path in seeing] == [".cpp"], "a header would bring them everywhere"
+    rules = (native / "CMakeLists.txt").read_text("utf-8")
+    for unit in seeing:
+        name = re.escape(unit.relative_to(native).as_posix())
+        assert re.search(rf"\({name} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON\)", rules)
+
+
+def test_the_module_gives_out_its_own_entry_alone(tmp_path):
+    """Not that of pybind11, which it calls. Elsewhere the linker would hide it, on Windows none does."""
+    (tmp_path / "docstrings.h").write_text("")
+    folders = [tmp_path, *(ROOT / "native" / name for name in ("include", "medial", "python"))]
+    words = ["-std=c++20", "-E", "-P", "-DPYBIND11_EXPORT=GIVEN_OUT", *(f"-I{f}" for f in folders)]
+    words.append(f"-I{sysconfig.get_paths()['include']}")
+    source = ROOT / "native" / "python" / "module.cpp"
+    text = subprocess.check_output(["g++", *words, source], text=True)
+    assert set(re.findall(r"GIVEN_OUT PyObject\s*\*\s*(\w+)", text)) == {"PyInit__medial"}
+    assert "initialise_medial" in text
+
+
+def test_headers_for_windows_have_its_configuration(tmp_path):
+    names = (
+        "Include/Python.h",
+        "Include/cpython/a.h",
+        "PC/pyconfig.h.in",
+        "Modules/b.h",
+        "pyconfig.h",
+    )
+    with tarfile.open(tmp_path / "source.tar", "w") as archive:
+        for name in names:
+            (tmp_path / "file").write_text(name)
+            archive.add(tmp_path / "file", f"Python-3.13.5/{name}")
+    headers_for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
+    found = sorted(
+        str(path.relative_to(tmp_path / "headers"))
+        for path in (tmp_path / "headers").rglob("*")
+        if path.is_file()
+    )
+    assert found == ["Python.h", "cpython/a.h", "pyconfig.h"]
+    assert (tmp_path / "headers/pyconfig.h").read_text() == "PC/pyconfig.h.in"
+
+
+EXPORTING = (
+    'extern "C" { int PyInit(){return 0;} int _PyOther(){return 0;} int PyExc_A = 1; int other; }'
+)
+
+
+@pytest.fixture
+def exporting(tmp_path):
+    """A library for this system with some names as Python's have."""
+    (tmp_path / "a.cpp").write_text(EXPORTING)
+    made = tmp_path / "libpython.so"
+    subprocess.run(["g++", "-shared", "-fPIC", "-o", made, tmp_path / "a.cpp"], check=True)
+    return made
+
+
+def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, exporting):
+    headers_for_windows.make_import_library(exporting, "python399", tmp_path, ["true"])
+    text = (tmp_path / "python399.def").read_text().splitlines()
+    assert text[:2] == ["LIBRARY python399.dll", "EXPORTS"]
+    assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]
+
+
+def test_import_library_is_for_the_processor(tmp_path, exporting):
+    dlltool = headers_for_windows.DLLTOOL["arm64"]
+    if shutil.which(dlltool[0]) is None:
+        pytest.skip(f"no {dlltool[0]}; 'build_addon.py build --windows-arm64' installs it")
+    headers_for_windows.make_import_library(exporting, "python399", tmp_path, dlltool)
+    assert struct.pack("<4H", 0, 0xFFFF, 0, pe.ARM64) in (tmp_path / "libpython399.a").read_bytes()
+
+
+def test_modules_for_windows_on_arm64_have_its_headers_and_its_name(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(paths, "LIBRARY", tmp_path / "lib")
+    monkeypatch.setattr(zig, "bring", list)
+    fetched, stripped = [], []
+
+    def fetch(version, suite, folder, processor="x64"):
+        fetched.append((version, suite, processor))
+        folder.mkdir(parents=True)
+        return ["pybind11-dev 9"]
+
+    def compile_preset(preset, definition):
+        assert preset == "zig-windows-arm64" and definition.count("/windows-arm64/3.") == 2
+        (tmp_path / preset).mkdir()
+        for digits in ("311", "313"):
+            (tmp_path / preset / f"_medial.cp{digits}-win_arm64.pyd").write_bytes(b"module")
+
+    def strip(command, option, _, target, module):
+        stripped.append((command, option))
+        target.write_bytes(module.read_bytes())
+
+    monkeypatch.setattr(other_systems, "fetch_for_windows", fetch)
+    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
+    monkeypatch.setattr(other_systems.library, "run", strip)
+    made = other_systems.BUILDERS["windows_arm64"]()
+    assert fetched == [("3.11", "bookworm", "arm64"), ("3.13", "trixie", "arm64")]
+    assert [path.name for path in made] == [
+        f"_medial.cp{digits}-win_arm64.pyd" for digits in ("311", "313")
+    ]
+    assert stripped == 2 * [("llvm-strip", "--strip-unneeded")]
+    assert "llvm" in needs.of_systems(["windows_arm64"]).values()
+
+
+def test_a_tool_that_is_missing_is_a_failure(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    for processor, tool in (("x64", "x86_64-w64-mingw32-dlltool"), ("arm64", "llvm-dlltool")):
+        with pytest.raises(Failure, match=f"expected {tool}, found none"):
+            headers_for_windows.fetch_for_windows("3.13", "trixie", tmp_path, processor)
+
+
+def test_licences_of_mingw_belong_to_what_was_compiled_here(tmp_path, monkeypatch):
+    """Modules of Microsoft's compiler, from another machine, have none of it."""
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    wanted = licences.Component("mingw-w64", "/no/such/*.a", "MIT and others")
+    monkeypatch.setattr(licences, "WINDOWS", (wanted,))
+    assert "mingw-w64" not in licences.text(["lib/_medial.cp311-win_amd64.pyd"])
+    (tmp_path / "mingw").mkdir()
+    with pytest.raises(Failure, match=r"Expected mingw-w64 as /no/such/\*\.a"):
+        licences.text(["lib/_medial.cp311-win_amd64.pyd"])
+
+
+def test_licences_name_what_zig_puts_into_modules_for_windows(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    for name in ("libcxx/LICENSE.TXT", "libc/mingw/COPYING"):
+        path = zig.program().parent / "lib" / name
+        path.parent.mkdir(parents=True)
+        path.write_text(f"terms in {name}")
+    (zig.folder() / zig.STAMP).write_text(f"ziglang {zig.VERSION}\n")
+    text = licences.text(["lib/_medial.cp311-win_arm64.pyd"])
+    assert "terms in libcxx" in text and "mingw-w64: ZPL-2.1" in text and "libc/mingw/" in text
+    assert "winpthreads" not in text, "it is in modules for x64 alone"
+    assert "ZPL" not in licences.text(["lib/_medial.cpython-311-darwin.so"])
