@@ -6,8 +6,9 @@
 namespace medial {
 namespace {
 
-// A stage ends after steps that unfold next to nothing: so many per vertex of all, or so many in
-// all if there are few vertices.
+// A stage ends after so many folded vertices, per vertex of all, in rounds that unfold nothing. It
+// also ends after so many steps in rounds that unfold next to nothing, or a fixed number of steps
+// where there are few vertices.
 constexpr double kIdle = 0.1;
 constexpr size_t kFewSteps = 4'000;
 constexpr double kNextToNothing = 0.02;  // the share of the folded vertices
@@ -77,10 +78,10 @@ class Unfolder {
   // Takes rounds of steps while they unfold facets, or are few; `suspects` are the facets that may
   // be folded, before and after.
   void take_rounds(const Stage& stage, std::vector<int32_t>& suspects) {
-    size_t fewest = SIZE_MAX, idle = 0;
-    const auto vertices_of_all = static_cast<double>(c_.walls.size());
-    const size_t most = std::max(kFewSteps, static_cast<size_t>(kIdle * vertices_of_all));
+    size_t fewest = SIZE_MAX, idle = 0, in_vain = 0;
+    const auto most = static_cast<size_t>(kIdle * static_cast<double>(c_.walls.size()));
     for (int round = 0; round < stage.rounds && idle <= most; ++round) {
+      if (in_vain > std::max(most, kFewSteps)) return;
       advance(c_.progress, rounds_ / kAllRounds);
       ++rounds_;
       std::vector<int32_t> vertices = folded_vertices(suspects, stage.dented);
@@ -91,7 +92,8 @@ class Unfolder {
       std::erase_if(vertices, [&](int32_t v) { return !moves(v); });
       relax(vertices, stage);
       const double wanted = (1 - kNextToNothing) * static_cast<double>(fewest);
-      idle = static_cast<double>(folded) < wanted ? 0 : idle + vertices.size();
+      idle = folded < fewest ? 0 : idle + folded;
+      in_vain = static_cast<double>(folded) < wanted ? 0 : in_vain + vertices.size();
       fewest = std::min(fewest, folded);
     }
   }
