@@ -17,6 +17,7 @@ from pathlib import Path
 
 import _module
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 _module.load()
 
@@ -27,13 +28,6 @@ from medial_axis.core.skeleton.rig import Rig, compute_rig  # noqa: E402
 
 FILES = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
 HEADER = ["mesh", "bones", "degrees", "weights: mean", "largest", "rigid: mean", "largest"]
-
-
-def turn_about(axis: np.ndarray, angle: float) -> np.ndarray:
-    """The (3, 3) rotation about a unit axis."""
-    x, y, z = axis
-    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * (across @ across)
 
 
 def moves_with(bones: Bones, bone: int) -> np.ndarray:
@@ -51,7 +45,7 @@ def turns_of(bones: Bones, bone: int, angle: float) -> Iterator[np.ndarray]:
     third = bones.up[bone]
     first = np.cross(along / np.linalg.norm(along), third)
     for axis, size in ((first, angle), (first, -angle), (third, angle)):
-        yield turn_about(axis, size)
+        yield Rotation.from_rotvec(size * axis).as_matrix()
 
 
 def folded_share(

@@ -29,7 +29,13 @@ struct Stage {
 constexpr Stage kNarrow[] = {
     {3, true, 0, 1, false}, {3, true, 1, 1, false}, {18, false, 1, 1, false}};
 constexpr Stage kWide[] = {{8, false, 2, 4, true}, {8, false, 3, 12, true}};
-constexpr double kAllRounds = 3 + 3 + 18 + 8 + 8;
+
+constexpr int rounds_of(std::span<const Stage> stages) {
+  int sum = 0;
+  for (const Stage& stage : stages) sum += stage.rounds;
+  return sum;
+}
+constexpr double kAllRounds = rounds_of(kNarrow) + rounds_of(kWide);
 
 class Unfolder {
  public:
