@@ -8,6 +8,7 @@
 #include "base/rows.h"
 #include "base/sort.h"
 #include "inside/surface.h"
+#include "sampling/mitres.h"
 
 namespace medial {
 namespace {
@@ -319,11 +320,20 @@ std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const E
   return marked;
 }
 
+std::vector<int32_t> creases_at_points(const TriangleMesh& mesh, const Creases& creases) {
+  std::vector<int32_t> count(mesh.points.size(), 0);
+  for (const MeshEdge& edge : creases.edges) {
+    for (const int32_t end : edge.ends) count[end] += edge.crease != Crease::none;
+  }
+  return count;
+}
+
 Creases find_creases(const TriangleMesh& mesh, double sharp_angle, std::span<const Edge> marked,
                      bool split_at_vertices, const Run& run) {
   Creases creases;
   creases.sharp_angle = sharp_angle;
   add_edges(mesh, sharp_angle, creases, run);
+  mark_mitres(mesh, creases);
   for (const auto& [p, q] : marked) {
     const int32_t edge = creases.find(p, q);
     if (edge >= 0 && creases.edges[edge].crease == Crease::none) {

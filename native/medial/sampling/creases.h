@@ -60,6 +60,9 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
 std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
                                const TriangleMesh& mesh, std::span<const Triangle> triangles);
 
+// Returns how many creases end at each point.
+std::vector<int32_t> creases_at_points(const TriangleMesh& mesh, const Creases& creases);
+
 // Finds the creases. An edge is sharp if its normals are `sharp_angle` or more apart, if it has
 // more than two triangles, if two triangles have it in one direction, or if it is `marked` (by ids
 // of points). A point is a corner if it ends other than two creases, or two that turn by more than

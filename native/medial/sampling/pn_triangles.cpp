@@ -320,6 +320,11 @@ void CurvedSurface::add_normals(const Creases& creases, VertexNormals normals, c
     Largest& here = largest[fan[root[c]]];
     here.others |= flat.part[c / 3] != here.part && !here.is_small(flat, c / 3);
   }
+  // Where a single crease ends, as a mitre does on a flat face, this may be a single triangle.
+  const std::vector<int32_t> creases_at = creases_at_points(mesh_, creases);
+  for (int32_t c = 0; c < count; ++c) {
+    largest[fan[root[c]]].alone &= creases_at[mesh_.triangles[c / 3][c % 3]] != 1;
+  }
   Beside{mesh_, creases, flat, fan_of_, edge_of_}.add_to(largest);
   fan_normals_.resize(largest.size());
   const FanNormals found{mesh_, creases, flat, fan_of_, edge_of_, normals == VertexNormals::fitted};
