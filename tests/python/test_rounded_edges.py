@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-HEIGHT, RADIUS = 0.3, 0.04
+HEIGHT, RADIUS, ROWS = 0.3, 0.04, 5
 OUTLINES = {  # counter-clockwise; the first corner sees all others
     "triangle": [(0.0, 0.0), (1.0, 0.0), (0.5, 0.8)],
     "hexagon": [(np.cos(a), np.sin(a)) for a in np.arange(6) * np.pi / 3],
@@ -33,9 +33,9 @@ def outline(corners, inset):
     return np.array([np.linalg.solve(inward[pair], away[pair] + inset) for pair in pairs])
 
 
-def rounded_prism(corners, rows=5):
+def rounded_prism(corners):
     """Its rings from the lower face to the upper one; both of these are fans."""
-    turn = np.linspace(0.5 * np.pi, 0.0, rows + 1)
+    turn = np.linspace(0.5 * np.pi, 0.0, ROWS + 1)
     low = [
         np.column_stack((outline(corners, RADIUS * (1 - c)), np.full(len(corners), z)))
         for c, z in zip(np.cos(turn), RADIUS * (1 - np.sin(turn)), strict=True)

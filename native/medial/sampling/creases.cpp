@@ -190,8 +190,6 @@ std::vector<int32_t> crease_edges(const Creases& creases) {
   return ids;
 }
 
-int32_t other_end(const MeshEdge& edge, int32_t p) { return edge.ends[edge.ends[0] == p]; }
-
 bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t after, double angle) {
   const Vec3 in = normalized(mesh.points[at] - mesh.points[before]);
   const Vec3 out = normalized(mesh.points[after] - mesh.points[at]);

@@ -34,6 +34,8 @@ struct MeshEdge {
   bool manifold = false;  // whether two triangles have it, in opposite directions
 };
 
+inline int32_t other_end(const MeshEdge& edge, int32_t p) { return edge.ends[edge.ends[0] == p]; }
+
 struct ChainLink {
   int32_t edge;
   bool reversed;  // whether it leads from q to p

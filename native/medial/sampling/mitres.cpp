@@ -6,8 +6,8 @@
 namespace medial {
 namespace {
 
-// A bent edge may rise by the height of a triangle beside it; beside a mitre all edges
-// are straight but for so much.
+// A crease goes on where a shared normal would bend an edge by more than the height of a triangle
+// beside it, along an edge that leaves all others at most so much of that.
 constexpr double kRise = 1, kStraight = 0.2;
 // A mitre ends where its turn falls below a tenth from one edge to the next, as on a flat face.
 constexpr double kFlat = 0.1;
@@ -73,7 +73,7 @@ class Mitres {
   Ring ring_at(int32_t crease, int32_t at) const {
     Ring ring;
     const auto fan = mesh_.fans[at];
-    int32_t t = creases_.edges[crease].triangles[0], spoke = other_end(crease, at);
+    int32_t t = creases_.edges[crease].triangles[0], spoke = other_end(creases_.edges[crease], at);
     while (ring.triangles.size() < fan.size()) {
       const Triangle& corners = mesh_.triangles[t];
       ring.triangles.push_back(t);
@@ -87,10 +87,6 @@ class Mitres {
       t = both[both[0] == t];
     }
     return {};
-  }
-  int32_t other_end(int32_t edge, int32_t at) const {
-    const Edge& ends = creases_.edges[edge].ends;
-    return ends[ends[0] == at];
   }
   // Returns the most by which an edge rises by the height of a triangle beside it, where the normal
   // is one before a spoke and another from there on.
