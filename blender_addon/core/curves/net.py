@@ -189,13 +189,18 @@ class Net:
         for node in nodes:
             del self.at[node]
 
-    def cut(self, name: int) -> None:
-        """Remove a branch of a loop; each half leaves its load to the node at its end."""
+    def cut(self, name: int, neck: range) -> None:
+        """Remove the points at some positions on a branch of a loop; their load goes to the ends of what is left."""
         chain = self.branches[name]
+        first, after = max(neck.start, 1), min(neck.stop, len(chain) - 1)
+        halves = chain[:first], chain[after:]
         self._take(name)
-        middle = len(chain) // 2
-        self._give(chain[1:middle], chain[0])
-        self._give(chain[max(middle, 1) : -1], chain[-1])
+        middle = max((first + after) // 2, first)
+        self._give(chain[first:middle], chain[first - 1])
+        self._give(chain[middle:after], chain[after])
+        for half in halves:
+            if len(half) > 1:
+                self.add(half)
         for node in {chain[0], chain[-1]}:
             self._join(node)
 

@@ -3,7 +3,8 @@
 
 There are two rules for loops and one for branches:
 
-- A loop is *cut* at its thinnest branch if that is thinner than two sample spacings: two limbs touch there.
+- A loop is *cut* at its thinnest branch if that is thinner than two sample spacings: two limbs touch there. Only the
+  thin part of the branch goes where limbs end at it.
 - A loop is *filled*, that is contracted to its largest ball, if it lies within one spacing of that ball: it goes around
   a pinhole.
 
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import length_of
 from .bridges import on_loops
 from .ends import reach_of
 
@@ -62,8 +64,30 @@ def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loo
 def cut_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
     """Cut a loop of limbs that touch at each step, the thinnest first; the arguments are those of `clear_loops`."""
     while net.loops() > genuine and (name := _thinnest_of_loops(net, spacing)) is not None:
-        net.cut(name)
+        net.cut(name, _neck(net, name, spacing))
         yield
+
+
+def _neck(net: Net, name: int, spacing: NDArray[np.float64]) -> range:
+    """Return the positions on a branch that go: those around its thinnest one that are thinner than THIN.
+
+    What is left of the branch goes as well where it hardly leaves the ball at its node, as half a rung does.
+    """
+    rows = net.branches[name]
+    thickness = net.radius[rows] / spacing[rows]
+    thick = np.flatnonzero(thickness >= THIN)
+    place = int(np.searchsorted(thick, int(thickness.argmin())))
+    first = int(thick[place - 1]) + 1 if place else 0
+    after = int(thick[place]) if place < len(thick) else len(rows)
+    first = first if _leaves_ball(net, rows[0], rows[first - 1]) else 0
+    after = after if after < len(rows) and _leaves_ball(net, rows[-1], rows[after]) else len(rows)
+    return range(first, after)
+
+
+def _leaves_ball(net: Net, node: int, tip: int) -> bool:
+    """Return whether the ball of a tip reaches as far from a node as that of a limb."""
+    reach = length_of(net.points[tip] - net.points[node]) + net.radius[tip]
+    return bool(reach >= REACH * net.radius[node])
 
 
 def fill_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
