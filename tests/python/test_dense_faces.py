@@ -46,7 +46,8 @@ def test_vertices_between_dense_walls_stay(rings, stays):
     mesh = _oblate(rings, 420)
     assert (len(mesh[0]) >= MANY) is stays
     _, place, sheets = _made(mesh)
-    assert np.mean(place[sheets] == VORONOI) == stays
+    # The poles are flat faces, between which a vertex may move.
+    assert np.mean(place[sheets] == VORONOI) == pytest.approx(stays, abs=1e-3)
 
 
 def test_sheets_between_dense_walls_still_end_on_creases():

@@ -38,7 +38,7 @@ def curves():
     found = {}
     for name, (solid, *_) in SOLIDS.items():
         points, triangles = (np.asarray(a) for a in solid())
-        settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=3_000)
+        settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=4_000)
         computation = compute_axis(Shape(points.astype(float), triangles), settings)
         asked = {}
 

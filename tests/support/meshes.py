@@ -119,7 +119,8 @@ def capsule(start: tuple, end: tuple, radius: float, around: int = 32) -> Mesh:
     """All within that distance of a segment."""
     a, axis = np.asarray(start, float), np.subtract(end, start)
     length = np.linalg.norm(axis)
-    turn = np.linspace(-np.pi / 2, np.pi / 2, around // 2 + 1)
+    quarter = np.linspace(0.0, np.pi / 2, around // 4 + 1)
+    turn = np.concatenate((-quarter[::-1], quarter))
     z = radius * np.sin(turn) + length * (np.arange(len(turn)) > around // 4)
     vertices, triangles = lathe(np.column_stack((radius * abs(np.cos(turn)), z)), around)
     across = np.linalg.svd(axis[None])[2][1:]

@@ -5,8 +5,7 @@
 
 #include "base/portable_math.h"
 #include "base/sort_unique.h"
-#include "base/union_find.h"
-#include "sampling/flat_parts.h"
+#include "sampling/beside_walls.h"
 #include "sampling/smooth_normal.h"
 
 namespace medial {
@@ -14,98 +13,6 @@ namespace {
 
 // Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
-// A flat part that is so many times as large as small ones at a vertex, and so many times as wide
-// as these reach from it, is a wall beside a bevel. A ring on top of a tube is as wide as the next
-// rows.
-constexpr double kDominant = 8, kWide = 2;
-// Beside a bevel the turn from a wall to the bevel is no larger than those of the bevel; beside the
-// narrow rows of a smooth surface it is as large as the wall is wide. Edges along the same bevel
-// are parallel up to this cosine.
-constexpr double kTurn = 2, kAlong = 0.9;
-
-// The largest flat part at a vertex, whether there are others that are not small beside it, and the
-// small triangles beside it: how far they reach from it, and whether they turn as a bevel does.
-struct Largest {
-  int32_t part = -1;
-  bool alone = true, others = false, bevel = false;
-  double area = 0, width = 0, beside = 0;
-
-  void add(const FlatParts& flat, int32_t triangle) {
-    const double found = flat.area[triangle];
-    if (flat.part[triangle] == part || !(found > area)) return;
-    part = flat.part[triangle];
-    alone = flat.alone[triangle] != 0;
-    area = found;
-    width = flat.width[triangle];
-  }
-  bool is_small(const FlatParts& flat, int32_t triangle) const {
-    return kDominant * flat.area[triangle] <= area;
-  }
-  // Returns whether a triangle counts for the normal: beside walls small ones do not. There are
-  // several walls where a bar with bevels is bent.
-  bool counts(const FlatParts& flat, int32_t triangle) const {
-    return alone || !is_small(flat, triangle) || width < kWide * beside || (others && !bevel);
-  }
-};
-
-// Looks at the small triangles beside the largest flat part of the fans at each edge.
-struct Beside {
-  const TriangleMesh& mesh;
-  const Creases& creases;
-  const FlatParts& flat;
-  std::span<const Triangle> fan_of, edge_of;
-
-  void add_to(std::vector<Largest>& largest) const {
-    for (const MeshEdge& edge : creases.edges) {
-      if (edge.crease != Crease::none) continue;
-      const auto& [s, t] = edge.triangles;
-      if (flat.part[s] == flat.part[t]) continue;
-      add(edge, s, t, largest);
-      add(edge, t, s, largest);
-    }
-  }
-
- private:
-  void add(const MeshEdge& edge, int32_t in, int32_t out, std::vector<Largest>& largest) const {
-    for (const int32_t end : edge.ends) {
-      Largest& here = largest[fan_of[in][corner_of(mesh.triangles[in], end)]];
-      if (flat.part[in] != here.part || !here.is_small(flat, out)) continue;
-      here.beside = std::max(here.beside, reach_from(mesh, out, edge.ends));
-      here.bevel |= turn(edge) <= kTurn * turn_beyond(edge, out, here);
-    }
-  }
-  double turn(const MeshEdge& edge) const {
-    return distance(mesh.normal[edge.triangles[0]], mesh.normal[edge.triangles[1]]);
-  }
-  Vec3 direction(const MeshEdge& edge) const {
-    return normalized(mesh.points[edge.ends[1]] - mesh.points[edge.ends[0]]);
-  }
-  // Returns the largest turn between small triangles at edges along another edge, of a triangle
-  // beside it and of the triangle's neighbours. The edges of a bevel may be sharp.
-  double turn_beyond(const MeshEdge& edge, int32_t triangle, const Largest& here) const {
-    double most = largest_turn(edge, triangle, here);
-    for (const int32_t e : edge_of[triangle]) {
-      const MeshEdge& next = creases.edges[e];
-      if (next.crease != Crease::none || next.ends == edge.ends) continue;
-      most =
-          std::max(most, largest_turn(edge, next.triangles[next.triangles[0] == triangle], here));
-    }
-    return most;
-  }
-  double largest_turn(const MeshEdge& along, int32_t triangle, const Largest& here) const {
-    double most = 0;
-    for (const int32_t e : edge_of[triangle]) {
-      const MeshEdge& edge = creases.edges[e];
-      if (!edge.manifold || edge.ends == along.ends) continue;
-      const auto& [s, t] = edge.triangles;
-      if (!here.is_small(flat, s) || !here.is_small(flat, t)) continue;
-      if (std::abs(dot(direction(edge), direction(along))) > kAlong)
-        most = std::max(most, turn(edge));
-    }
-    return most;
-  }
-};
-
 // The weight with which a sum of normals is exact where all vertices lie on a sphere (Max 1999).
 double weight_on_spheres(const TriangleMesh& mesh, int32_t triangle, int corner) {
   const Triangle& t = mesh.triangles[triangle];
@@ -124,7 +31,8 @@ struct FanNormals {
   std::span<const Triangle> fan_of, edge_of;
   bool fitted;
 
-  Vec3 of_fan_at(int32_t triangle, int corner, const Largest& largest) const {
+  // Flat parts up to an area do not count.
+  Vec3 of_fan_at(int32_t triangle, int corner, double small) const {
     const int32_t vertex = mesh.triangles[triangle][corner], fan = fan_of[triangle][corner];
     Vec3 by_angle, of_sphere;
     bool closed = fitted, bent = false;
@@ -132,8 +40,9 @@ struct FanNormals {
     for (const int32_t t : mesh.fans[vertex]) {
       const int i = corner_of(mesh.triangles[t], vertex);
       if (fan_of[t][i] != fan) continue;
-      closed &= largest.counts(flat, t) && is_smooth(t, i) && is_smooth(t, (i + 2) % 3);
-      if (!largest.counts(flat, t)) continue;
+      const bool counts = flat.area[t] > small || small == 0;
+      closed &= counts && is_smooth(t, i) && is_smooth(t, (i + 2) % 3);
+      if (!counts) continue;
       bent |= flat.part[t] != flat.part[triangle];
       by_angle = by_angle + mesh.corner_angle(t, i) * mesh.normal[t];
       if (!closed) continue;
@@ -292,44 +201,14 @@ size_t CurvedSurface::bytes() const {
 }
 
 void CurvedSurface::add_normals(const Creases& creases, VertexNormals normals, const Run& run) {
-  UnionFind corners(3 * mesh_.triangles.size());
-  for (const MeshEdge& edge : creases.edges) {
-    if (edge.crease != Crease::none) continue;
-    const auto& [s, t] = edge.triangles;
-    for (const int32_t end : edge.ends) {
-      corners.unite(3 * s + corner_of(mesh_.triangles[s], end),
-                    3 * t + corner_of(mesh_.triangles[t], end));
-    }
-  }
-  const auto root = std::move(corners).representatives();
+  Fans fans = smooth_fans(mesh_, creases);
   const FlatParts flat = flat_parts(mesh_, creases);
-  const auto count = static_cast<int32_t>(root.size());
-  fan_of_.resize(mesh_.triangles.size());
-  std::vector<int32_t> fan(root.size(), -1), first;
-  std::vector<Largest> largest;
-  for (int32_t c = 0; c < count; ++c) {
-    if (fan[root[c]] < 0) {
-      fan[root[c]] = static_cast<int32_t>(largest.size());
-      largest.emplace_back();
-      first.push_back(c);
-    }
-    fan_of_[c / 3][c % 3] = fan[root[c]];
-    largest[fan[root[c]]].add(flat, c / 3);
-  }
-  for (int32_t c = 0; c < count; ++c) {
-    Largest& here = largest[fan[root[c]]];
-    here.others |= flat.part[c / 3] != here.part && !here.is_small(flat, c / 3);
-  }
-  // Where a single crease ends, as a mitre does on a flat face, this may be a single triangle.
-  const std::vector<int32_t> creases_at = creases_at_points(mesh_, creases);
-  for (int32_t c = 0; c < count; ++c) {
-    largest[fan[root[c]]].alone &= creases_at[mesh_.triangles[c / 3][c % 3]] != 1;
-  }
-  Beside{mesh_, creases, flat, fan_of_, edge_of_}.add_to(largest);
-  fan_normals_.resize(largest.size());
+  const auto small = areas_beside_walls(mesh_, creases, flat, fans, edge_of_);
+  fan_of_ = std::move(fans.of);
+  fan_normals_.resize(small.size());
   const FanNormals found{mesh_, creases, flat, fan_of_, edge_of_, normals == VertexNormals::fitted};
-  parallel_for(static_cast<int64_t>(first.size()), run, [&](int64_t f) {
-    fan_normals_[f] = found.of_fan_at(first[f] / 3, first[f] % 3, largest[f]);
+  parallel_for(static_cast<int64_t>(small.size()), run, [&](int64_t f) {
+    fan_normals_[f] = found.of_fan_at(fans.first[f] / 3, fans.first[f] % 3, small[f]);
   });
   split_steep_fans(creases.sharp_angle);
 }

@@ -69,8 +69,7 @@ enum class VertexNormals : uint8_t { mean, fitted };
 class CurvedSurface {
  public:
   // The mesh must outlive the surface.
-  // Where a wall of several triangles in one plane is far larger than all others at a vertex, as
-  // beside a bevel, the normal is that of the wall, which stays flat.
+  // Beside a bevel the normal is that of the wall, which stays flat.
   CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run,
                 VertexNormals normals = VertexNormals::mean);
 
