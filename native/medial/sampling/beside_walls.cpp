@@ -17,6 +17,10 @@ constexpr double kTurn = 2, kAlong = 0.9;
 // The rows of a fillet are equal, and turn twice as far from one to the next as from the wall to
 // the first one. So a wall beside them need not be much larger than a row.
 constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;
+// A strip of a fillet is no longer than some ten times as wide, and ends beside the rows of a
+// sphere. It is straight if it is so many times as large as these, reaches as many times as far,
+// and turns no more than they do.
+constexpr double kLong = 4;
 // A single triangle, or a wall that is not quite flat, has to reach so many times as far from each
 // edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
 constexpr double kFar = 8, kTinyTurn = 0.01;
@@ -35,12 +39,14 @@ struct Largest {
   bool narrow = false;    // it hardly reaches farther from an edge than a small triangle
   bool bevel = false;     // small triangles turn as those of a bevel
   bool fillet = false;    // triangles turn as the rows of a fillet
+  bool strip = false;     // it is long, and ends beside triangles that turn as the rows of a sphere
   bool straight = false;  // it reaches far from an edge, and turns as beside a bevel there
   bool curved = false;    // it turns more than that, or is one of large triangles of no wall
 
   // Returns the area up to which others do not count beside it.
   double area_beside() const {
     if (fillet && !alone) return area / kLarger;
+    if (strip) return area / kLong;
     const bool wide = !alone && (width >= kWide * beside || !narrow) && (bevel || !others);
     return wide || (straight && !curved) ? area / kDominant : 0;
   }
@@ -100,13 +106,15 @@ class Walls {
     for (const int32_t end : edge.ends) {
       Largest& here = largest_[fans_.of[wall][corner_of(mesh_.triangles[wall], end)]];
       if (is_small(wall, here)) continue;
-      here.fillet |=
-          flat_.part[wall] == here.part && across >= kLarger * reach && is_fillet(edge, row, reach);
+      if (flat_.part[wall] == here.part) {
+        here.fillet |= across >= kLarger * reach && is_fillet(edge, row, reach);
+        here.strip |= across >= kLong * reach && is_strip(edge, wall, row);
+      }
       if (!is_small(row, here)) {
         here.curved |= turn(edge) > kOnePlane;
         continue;
       }
-      const double rows = turn_of_rows(edge, row, here);
+      const double rows = turn_of_rows(edge, row, here.area / kDominant);
       const bool bevel = turn(edge) <= kTurn * rows;
       if (flat_.part[wall] == here.part) {
         here.beside = std::max(here.beside, reach);
@@ -144,14 +152,20 @@ class Walls {
       if (std::abs(dot(direction(other), direction(edge))) > cosine) call(other);
     }
   }
-  // Returns the largest turn between small triangles along an edge; 0 if there are none.
-  double turn_of_rows(const MeshEdge& edge, int32_t row, const Largest& here) const {
+  // Returns the largest turn at edges along another one between flat parts that are no larger than
+  // an area; 0 if there are none.
+  double turn_of_rows(const MeshEdge& edge, int32_t row, double area) const {
     double most = 0;
     for_each_along(edge, row, kAlong, [&](const MeshEdge& other) {
       const auto& [s, t] = other.triangles;
-      if (is_small(s, here) && is_small(t, here)) most = std::max(most, turn(other));
+      if (std::max(flat_.area[s], flat_.area[t]) <= area) most = std::max(most, turn(other));
     });
     return most;
+  }
+  bool is_strip(const MeshEdge& edge, int32_t wall, int32_t row) const {
+    const double area = flat_.area[wall] / kLong;
+    return flat_.alone[wall] == 0 && flat_.area[row] <= area &&
+           turn(edge) <= turn_of_rows(edge, row, area);
   }
   bool is_fillet(const MeshEdge& edge, int32_t row, double width) const {
     bool found = false;
