@@ -36,10 +36,10 @@ def test_fillets_are_straight_up_to_the_mitre(medial, name):
 
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize(
-    ("radius", "rows", "bar"), [(0.1, 4, 0.001), (0.2, 4, 0.001), (0.4, 8, 0.001), (0.6, 8, 0.02)]
+    ("radius", "rows", "bar"), [(0.1, 4, 0.001), (0.2, 4, 0.001), (0.4, 4, 0.002), (0.6, 8, 0.001)]
 )
 def test_faces_of_a_rounded_box_are_flat(medial, radius, rows, bar, turned):
-    """They bulged by up to 4 % of half the side. Spheres wider than the faces still bend their fillets."""
+    """They bulged by up to 6 % of half the side; and so did the strips of fillets, whose ends lie beside spheres."""
     half = (1.0, 1.0, 1.0)
     points, triangles = rounded_box(half, radius, rows)
     turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0] if turned else np.eye(3)

@@ -17,9 +17,9 @@ constexpr double kTurn = 2, kAlong = 0.9;
 // The rows of a fillet are equal, and turn twice as far from one to the next as from the wall to
 // the first one. So a wall beside them need not be much larger than a row.
 constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;
-// A strip of a fillet is no longer than some ten times as wide, and ends beside the rows of a
-// sphere. It is straight if it is so many times as large as these, reaches as many times as far,
-// and turns no more than they do.
+// A strip of a fillet ends beside the rows of a sphere, which may be hardly smaller. It is straight
+// if it is so many times as large as these, reaches as many times as far from their edge, and turns
+// no more than they do.
 constexpr double kLong = 4;
 // A single triangle, or a wall that is not quite flat, has to reach so many times as far from each
 // edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
@@ -64,19 +64,7 @@ class Walls {
         largest_(fans.first.size()) {}
 
   std::vector<double> areas() {
-    for_each_corner([this](int32_t t, int, Largest& here) {
-      if (flat_.part[t] == here.part || !(flat_.area[t] > here.area)) return;
-      here.part = flat_.part[t];
-      here.area = flat_.area[t];
-      here.width = flat_.width[t];
-      here.alone = flat_.alone[t] != 0;
-    });
-    // Where a single crease ends, as a mitre does on a flat face, this may be a single triangle.
-    const std::vector<int32_t> creases_at = creases_at_points(mesh_, creases_);
-    for_each_corner([&](int32_t t, int corner, Largest& here) {
-      here.others |= flat_.part[t] != here.part && !is_small(t, here);
-      here.alone &= creases_at[mesh_.triangles[t][corner]] != 1;
-    });
+    find_largest();
     for (const MeshEdge& edge : creases_.edges) {
       if (edge.crease != Crease::none) continue;
       const auto& [s, t] = edge.triangles;
@@ -95,6 +83,21 @@ class Walls {
     for (size_t t = 0; t < fans_.of.size(); ++t) {
       for (int i = 0; i < 3; ++i) call(static_cast<int32_t>(t), i, largest_[fans_.of[t][i]]);
     }
+  }
+  void find_largest() {
+    for_each_corner([this](int32_t t, int, Largest& here) {
+      if (flat_.part[t] == here.part || !(flat_.area[t] > here.area)) return;
+      here.part = flat_.part[t];
+      here.area = flat_.area[t];
+      here.width = flat_.width[t];
+      here.alone = flat_.alone[t] != 0;
+    });
+    // Where a single crease ends, as a mitre does on a flat face, this may be a single triangle.
+    const std::vector<int32_t> creases_at = creases_at_points(mesh_, creases_);
+    for_each_corner([&](int32_t t, int corner, Largest& here) {
+      here.others |= flat_.part[t] != here.part && !is_small(t, here);
+      here.alone &= creases_at[mesh_.triangles[t][corner]] != 1;
+    });
   }
   bool is_small(int32_t triangle, const Largest& here) const {
     return kDominant * flat_.area[triangle] <= here.area;
