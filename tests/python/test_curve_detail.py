@@ -93,9 +93,7 @@ def test_betti_numbers_are_those_of_the_cells(curves, name, detail):
 
 
 def test_at_full_detail_nothing_is_left_out(curves):
-    rungs = curves["tongs"][2][1.0].level.betti[1]
-    assert rungs > 5  # else the test sees nothing
-    for name, betti in (("tongs", (1, rungs, 0)), ("bells", (1, 0, 2)), ("torus", (1, 1, 0))):
+    for name, betti in (("tongs", (1, 21, 0)), ("bells", (1, 0, 2)), ("torus", (1, 1, 0))):
         for found in curves[name][1:]:
             assert found[1.0].level.betti == betti and not found[1.0].level.loops_left_out
 

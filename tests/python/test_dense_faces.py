@@ -45,9 +45,10 @@ def _made(mesh):
 def test_vertices_between_dense_walls_stay(rings, stays):
     mesh = _oblate(rings, 420)
     assert (len(mesh[0]) >= MANY) is stays
-    _, place, sheets = _made(mesh)
+    axis, place, sheets = _made(mesh)
     # The poles are flat faces, between which a vertex may move.
-    assert np.mean(place[sheets] == VORONOI) == pytest.approx(stays, abs=1e-3)
+    sheets = sheets[np.hypot(*axis.vertices[sheets].T[:2]) > 0.1]
+    assert np.mean(place[sheets] == VORONOI) == stays
 
 
 def test_sheets_between_dense_walls_still_end_on_creases():

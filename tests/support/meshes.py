@@ -115,12 +115,17 @@ def lathe(profile: NDArray[np.float64], around: int = 64) -> Mesh:
     return weld((rings, np.concatenate(quads).astype(np.int32)))
 
 
+def arc(rows: int) -> NDArray[np.float64]:
+    """(2 rows + 2,) angles from -90 to 90 degrees in equal rows; 0 is there twice."""
+    quarter = np.linspace(0.0, 0.5 * np.pi, rows + 1)
+    return np.concatenate((-quarter[::-1], quarter))
+
+
 def capsule(start: tuple, end: tuple, radius: float, around: int = 32) -> Mesh:
     """All within that distance of a segment."""
     a, axis = np.asarray(start, float), np.subtract(end, start)
     length = np.linalg.norm(axis)
-    quarter = np.linspace(0.0, np.pi / 2, around // 4 + 1)
-    turn = np.concatenate((-quarter[::-1], quarter))
+    turn = arc(around // 4)
     z = radius * np.sin(turn) + length * (np.arange(len(turn)) > around // 4)
     vertices, triangles = lathe(np.column_stack((radius * abs(np.cos(turn)), z)), around)
     across = np.linalg.svd(axis[None])[2][1:]

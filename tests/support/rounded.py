@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
-from support.meshes import Mesh, lathe, weld
+from support.meshes import Mesh, arc, lathe, weld
 
 HEIGHT = 0.3  # of a prism
 OUTLINES = {  # of prisms, counter-clockwise; the first corner sees all others
@@ -30,6 +30,13 @@ def inner_outline(corners, inset):
     return np.array([np.linalg.solve(inward[pair], away[pair] + inset) for pair in pairs])
 
 
+def between_rings(ids):
+    """The two triangles of each quadrilateral between (k, n) rings of vertices, one above the other."""
+    a, b = ids[:-1], ids[1:]
+    a, b, c, d = (x.ravel() for x in (a, np.roll(a, -1, axis=1), np.roll(b, -1, axis=1), b))
+    return np.column_stack((a, b, c)), np.column_stack((a, c, d))
+
+
 def rounded_prism(corners, radius: float, rows: int) -> Mesh:
     """Its rings from the lower face to the upper one; both of these are fans."""
     turn = np.linspace(0.5 * np.pi, 0.0, rows + 1)
@@ -39,10 +46,8 @@ def rounded_prism(corners, radius: float, rows: int) -> Mesh:
     ]
     rings = [*low, *(ring * (1, 1, -1) + (0, 0, HEIGHT) for ring in low[::-1])]
     ids = np.arange(len(rings) * len(corners)).reshape(len(rings), -1)
-    a, b = ids[:-1], ids[1:]
-    a, b, c, d = (x.ravel() for x in (a, np.roll(a, -1, axis=1), np.roll(b, -1, axis=1), b))
-    fan = np.column_stack([ids[0, 1:-1] * 0, ids[0, 1:-1], ids[0, 2:]])
-    faces = [fan[:, ::-1], np.column_stack((a, b, c)), np.column_stack((a, c, d)), fan + ids[-1, 0]]
+    fan = np.column_stack([np.zeros_like(ids[0, 1:-1]), ids[0, 1:-1], ids[0, 2:]])
+    faces = [fan[:, ::-1], *between_rings(ids), fan + ids[-1, 0]]
     return np.concatenate(rings), np.concatenate(faces).astype(np.int32)
 
 
@@ -61,12 +66,6 @@ def off_rounded_prism(points, corners, radius: float):
     return np.where(np.minimum(inset, below) < radius, np.abs(rounded), np.minimum(inset, below))
 
 
-def arc(rows: int):
-    """(2 rows + 2,) angles from -90 to 90 degrees in equal rows; 0 is there twice."""
-    quarter = np.linspace(0.0, 0.5 * np.pi, rows + 1)
-    return np.concatenate((-quarter[::-1], quarter))
-
-
 def rounded_box(half, radius: float, rows: int) -> Mesh:
     """A box of three half sides with spheres at its corners, cut along meridians and parallels."""
     up = arc(rows)
@@ -79,13 +78,11 @@ def rounded_box(half, radius: float, rows: int) -> Mesh:
     rings[:, :, :2] = radius * np.cos(up)[:, None, None] * flat + inner[:2] * sign
     rings[:, :, 2] = (radius * np.sin(up) + inner[2] * z)[:, None]
     ids = np.arange(rings[..., 0].size).reshape(len(up), -1)
-    a, b = ids[:-1], ids[1:]
-    a, b, c, d = (x.ravel() for x in (a, np.roll(a, -1, axis=1), np.roll(b, -1, axis=1), b))
     cap = ids[-1, :: rows + 1]
     caps = [[cap[0], cap[1], cap[2]], [cap[0], cap[2], cap[3]]]
     low = ids[0, :: rows + 1]
     caps += [[low[0], low[2], low[1]], [low[0], low[3], low[2]]]
-    faces = [np.column_stack((a, b, c)), np.column_stack((a, c, d)), np.array(caps)]
+    faces = [*between_rings(ids), np.array(caps)]
     return weld((rings.reshape(-1, 3), np.concatenate(faces).astype(np.int32)))
 
 

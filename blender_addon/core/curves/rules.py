@@ -77,11 +77,11 @@ def _neck(net: Net, name: int, spacing: NDArray[np.float64]) -> range:
     thickness = net.radius[rows] / spacing[rows]
     thick = np.flatnonzero(thickness >= THIN)
     place = int(np.searchsorted(thick, int(thickness.argmin())))
-    first = int(thick[place - 1]) + 1 if place else 0
-    after = int(thick[place]) if place < len(thick) else len(rows)
-    first = first if _leaves_ball(net, rows[0], rows[first - 1]) else 0
-    after = after if after < len(rows) and _leaves_ball(net, rows[-1], rows[after]) else len(rows)
-    return range(first, after)
+    before, after = thick[:place].tolist()[-1:], thick[place:].tolist()[:1]
+    return range(
+        next((at + 1 for at in before if _leaves_ball(net, rows[0], rows[at])), 0),
+        next((at for at in after if _leaves_ball(net, rows[-1], rows[at])), len(rows)),
+    )
 
 
 def _leaves_ball(net: Net, node: int, tip: int) -> bool:
