@@ -6,6 +6,7 @@ import re
 import bpy
 import numpy as np
 import pytest
+from mathutils.kdtree import KDTree
 from scene import (
     addon,
     attribute,
@@ -17,6 +18,7 @@ from scene import (
     reports,
     result_of,
     select,
+    suzanne,
     triangles_of,
 )
 from test_nodes import evaluated, volume
@@ -46,6 +48,20 @@ def test_a_small_mesh_with_radii_beside_its_axis(capfd):
     radius = attribute(made.data, "ma_radius")
     assert radius.min() > 0 and radius.max() == pytest.approx(0.5, abs=0.01)
     assert np.allclose(made.matrix_world, result_of(source).matrix_world)
+
+
+def test_no_vertex_runs_away_from_the_axis():
+    source = suzanne(levels=2)
+    compute(form="CLEAN", side="INNER")
+    whole = result_of(source).data
+    made = reduce(source, 200).data
+    tree = KDTree(len(whole.vertices))
+    for vertex in whole.vertices:
+        tree.insert(vertex.co, vertex.index)
+    tree.balance()
+    distance = max(tree.find(vertex.co)[2] for vertex in made.vertices)
+    # Once a vertex lay a ninth of the diagonal away, with a ball of radius 0 at the surface.
+    assert distance < 0.04 * np.linalg.norm(np.ptp(positions(whole), axis=0))
 
 
 def test_it_is_made_once_and_again_for_another_number():

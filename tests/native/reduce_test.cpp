@@ -9,6 +9,7 @@
 #include "base/vec3.h"
 #include "reduce/checked_mesh.h"
 #include "reduce/collapse.h"
+#include "reduce/fit.h"
 #include "reduce/sphere_complex.h"
 
 namespace medial {
@@ -129,6 +130,16 @@ TEST(Reduce, CollapsesTurnNoTriangleOver) {
       EXPECT_GT(cross(u, v).z, 0) << wanted;
     }
   }
+}
+
+TEST(Reduce, NoSphereRunsAwayToADistantPlace) {
+  SphereMesh ball;
+  ball.vertices.push_back({0, 0, 0});
+  ball.radius.push_back(0.1);
+  const std::vector<TangentPlace> places{{{1, 0, 0}, {1, 0, 0}, 1, {0, -1, -1}}};
+  EXPECT_TRUE(fit_spheres(ball, places, {}));
+  EXPECT_NEAR(std::hypot(length(ball.vertices[0]), ball.radius[0] - 0.1), 0.05, 1e-9);
+  EXPECT_GT(ball.vertices[0].x, 0);
 }
 
 TEST(Reduce, SurfaceLiesWhereTheDistanceIsNought) {

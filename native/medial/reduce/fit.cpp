@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fits spheres by the Gauss-Newton method: the distance of a place to the nearest ball of a slab is
 // linear, to first order, in the spheres of the slab. Distant places get more weight, because the
-// largest distance shall decrease.
+// largest distance shall decrease. No sphere goes farther than a share of its radius, because one
+// at a rim would else run away as a spike for the sake of a few places.
 #include "reduce/fit.h"
 
 #include <cmath>
@@ -17,6 +18,7 @@ constexpr int kHalvings = 3;
 constexpr int kSolverSteps = 100;
 constexpr double kDamping = 1e-3;
 constexpr double kExact = 1e-9;  // share of the extent; smaller distances need no fit
+constexpr double kReach = 0.5;   // share of its radius by which a sphere may change
 
 // per sphere: steps of the centre and of the radius
 using Step = std::vector<std::array<double, 4>>;
@@ -43,6 +45,7 @@ class Fitter {
   Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
          std::span<const uint8_t> fixed)
       : mesh_(mesh),
+        first_(mesh),
         places_(places),
         fixed_(fixed),
         run_(run),
@@ -202,6 +205,17 @@ class Fitter {
     }
   }
 
+  // Puts a sphere where it is wanted, or as near to that as it may go.
+  void place(size_t v, const Sphere& wanted) {
+    const Vec3 moved = wanted.centre - first_.vertices[v];
+    const double grown = wanted.radius - first_.radius[v];
+    const double change = std::sqrt(squared_length(moved) + grown * grown);
+    const double most = kReach * first_.radius[v];
+    const double share = change > most ? most / change : 1;
+    mesh_.vertices[v] = first_.vertices[v] + share * moved;
+    mesh_.radius[v] = first_.radius[v] + share * grown;
+  }
+
   // Takes the whole step, or a half or a quarter of it, and returns the new measure.
   double improve(const Step& step, double now) {
     const auto vertices = mesh_.vertices;
@@ -210,8 +224,7 @@ class Fitter {
     for (int i = 0; i < kHalvings; ++i, share /= 2) {
       for (size_t v = 0; v < vertices.size(); ++v) {
         const auto& [x, y, z, r] = step[v];
-        mesh_.vertices[v] = vertices[v] + share * Vec3{x, y, z};
-        mesh_.radius[v] = std::max(0.0, radius[v] + share * r);
+        place(v, {vertices[v] + share * Vec3{x, y, z}, radius[v] + share * r});
       }
       stop_turning(vertices, radius);
       if (const double then = measure(); then < now) return then;
@@ -222,6 +235,7 @@ class Fitter {
   }
 
   SphereMesh& mesh_;
+  SphereMesh first_;  // before anything moved
   std::span<const TangentPlace> places_;
   std::span<const uint8_t> fixed_;  // (v) or empty
   Run run_;
