@@ -16,7 +16,7 @@ namespace {
 constexpr int kSteps = 12;
 constexpr int kHalvings = 3;
 constexpr int kSolverSteps = 100;
-constexpr double kDamping = 1e-3;
+constexpr double kDamping = 0.1;
 constexpr double kExact = 1e-9;  // share of the extent; smaller distances need no fit
 constexpr double kReach = 0.5;   // share of its radius by which a sphere may change
 
