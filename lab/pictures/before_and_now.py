@@ -24,9 +24,8 @@ from contact_sheet import FILES, blender_demo, blender_scene, made
 PIXELS = (300, 250)
 SAMPLES = 96
 COLUMNS = ("before", "now")
-SIDE = Vector(
-    (math.cos(math.radians(75)), -math.sin(math.radians(75)), 0)
-)  # the posed woman's left
+TURN = math.radians(75)  # of the posed woman, who is seen from her side
+SIDE = Vector((math.cos(TURN), -math.sin(TURN), 0))  # her left
 
 
 def main():
@@ -61,11 +60,7 @@ def picture(path, surface, result):
     """Render a result, in its surface if it has one."""
     blender_scene.PIXELS = PIXELS
     if surface is None:
-        blender_scene.look_at(
-            *blender_scene.bounding_ball(result), blender_scene.world_points(result)
-        )
-        blender_scene.light()
-        blender_scene.use_cycles()
+        blender_scene.show_whole(result)
     else:
         blender_scene.arrange(surface, result)
     bpy.context.scene.cycles.samples = SAMPLES
@@ -150,7 +145,7 @@ def thickness():
 def posed():
     """The woman with a raised thigh, seen from her right."""
     surface = made("woman", FILES["woman"])
-    surface.rotation_euler.z = math.radians(-75)
+    surface.rotation_euler.z = -TURN
     bpy.context.view_layer.update()
     bpy.ops.object.medial_axis_armature()
     (armature,) = (thing for thing in bpy.data.objects if thing.type == "ARMATURE")

@@ -56,7 +56,7 @@ def show(found, path):
     width = WIDTH * np.linalg.norm(np.ptp(found["solid"].reshape(-1, 3), axis=0))
     parts = [found["triangles"], octahedra(found["points"], width), tubes(found["edges"], width)]
     result = object_of(np.concatenate(parts), "Axis")
-    result.data.materials.append(paint())
+    result.data.materials.append(paint((0.9, 0.45, 0.1)))
     blender_scene.PIXELS = PIXELS
     blender_scene.arrange(solid, result)
     bpy.context.scene.cycles.samples = SAMPLES
@@ -96,11 +96,12 @@ def tubes(edges, width):
     return np.concatenate(made)
 
 
-def paint():
+def paint(colour):
+    """A dull material of that red, green and blue."""
     material = bpy.data.materials.new("Axis")
     material.use_nodes = True
     bsdf = material.node_tree.nodes["Principled BSDF"]
-    bsdf.inputs["Base Color"].default_value = (0.9, 0.45, 0.1, 1.0)
+    bsdf.inputs["Base Color"].default_value = (*colour, 1.0)
     bsdf.inputs["Roughness"].default_value = 0.7
     return material
 

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
-from beside_others import object_of, tubes
+from beside_others import object_of, paint, tubes
 from contact_sheet import FILES, blender_demo, blender_scene, made
 
 BODIES = ("hand", "dilo", "3holes")
@@ -53,7 +53,7 @@ def panes_of(body, folder):
         (small, (0.4, 0.22, 0.06)),
         (lines, (0.01, 0.01, 0.01)),
     ):
-        paint(thing, colour)
+        dye(thing, colour)
     return [
         render(folder / f"{body}{number}.png", shown)
         for number, shown in enumerate(((surface,), (small, lines), (solid,)))
@@ -62,10 +62,7 @@ def panes_of(body, folder):
 
 def arrange(surface):
     blender_scene.PIXELS = PIXELS
-    points = blender_scene.world_points(surface)
-    blender_scene.look_at(*blender_scene.bounding_ball(surface), points)
-    blender_scene.light()
-    blender_scene.use_cycles()
+    blender_scene.show_whole(surface)
     bpy.context.scene.cycles.samples = SAMPLES
     bpy.context.scene.render.film_transparent = True
 
@@ -77,12 +74,8 @@ def edges_of(thing, width):
     return object_of(tubes(corners[ends], width), "Edges")
 
 
-def paint(thing, colour):
-    material = bpy.data.materials.new(thing.name)
-    material.use_nodes = True
-    bsdf = material.node_tree.nodes["Principled BSDF"]
-    bsdf.inputs["Base Color"].default_value = (*colour, 1.0)
-    bsdf.inputs["Roughness"].default_value = 0.7
+def dye(thing, colour):
+    material = paint(colour)
     if not thing.material_slots:
         thing.data.materials.append(None)
     for slot in thing.material_slots:  # the rebuilt solid shares the mesh of the small one
@@ -92,9 +85,8 @@ def paint(thing, colour):
 
 def render(path, shown):
     for thing in bpy.data.objects:
-        if thing.type in ("MESH", "CURVE"):
+        if thing.type == "MESH":
             thing.hide_render = thing not in shown
-            thing.hide_set(False)
     bpy.context.scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
     return path

@@ -16,12 +16,16 @@ SAMPLES = 24
 def arrange(source, result, shine=True):
     """Set up everything that `bpy.ops.render.render` needs. Without `shine` the surface has no highlight, which would
     show each triangle of a mesh of many flat ones."""
-    center, radius = bounding_ball(source)
     source.data.materials.clear()
     source.data.materials.append(glass(shine))
     source.visible_shadow = source.visible_diffuse = source.visible_glossy = False
     result.show_in_front = False
-    look_at(center, radius, world_points(source))
+    show_whole(source)
+
+
+def show_whole(thing):
+    """Set up camera, light and renderer for a picture with the whole of an object."""
+    look_at(*bounding_ball(thing), world_points(thing))
     light()
     use_cycles()
 
