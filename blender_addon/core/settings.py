@@ -84,6 +84,13 @@ class Form(Enum):
     CURVE = "CURVE"
 
 
+class Mesh(Enum):
+    """The mesh of the sheets of a clean form."""
+
+    EVEN = "EVEN"
+    VORONOI = "VORONOI"
+
+
 class AboveLimit(Enum):
     """The reaction to an analysis that needs more memory than the limit."""
 
@@ -125,7 +132,7 @@ SAMPLING_OPTIONS = (
 
 def applies_to_form(name: str, form: Form) -> bool:
     """Whether an option changes anything for a Form."""
-    if name in ("simplify", "erode", "spike"):
+    if name in ("simplify", "erode", "spike", "mesh"):
         return form is Form.CLEAN
     if name == "detail":
         return form is Form.CURVE
@@ -223,6 +230,18 @@ class Settings(Options):
         "samples of the faces, which takes less time, most of all on smooth bodies. It matters only "
         "where the faces decide what is inside",
         default=True,
+    )
+    mesh: Mesh = choice(
+        "Mesh",
+        "The faces of which sheets consist",
+        default=Mesh.EVEN,
+        items={
+            Mesh.EVEN: ("Even", "Even triangles between shared seams and smooth rims"),
+            Mesh.VORONOI: (
+                "Voronoi",
+                "The facets of the Voronoi diagram of the samples, each between two of them",
+            ),
+        },
     )
     theta: float = number(
         "Theta",

@@ -157,8 +157,8 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
 
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
                                     std::optional<int64_t> bodies, Progress* progress,
-                                    const FacesInput* faces,
-                                    std::span<const int32_t> partners) const {
+                                    const FacesInput* faces, std::span<const int32_t> partners,
+                                    bool places) const {
   if (side != Side::inner) {
     throw InvalidInputError(
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
@@ -173,7 +173,7 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
   if (has_small) in_parts = without(small, bodies, parts_->triangulation, parts_->sides);
   const CellSides& sides = has_small ? in_parts : parts_->sides;
   return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, faces, partners,
-                        parts_->frame, parts_->run(progress));
+                        places, parts_->frame, parts_->run(progress));
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {

@@ -307,6 +307,9 @@ class Level:
         """(v,) int32: vertex of the hierarchy that each vertex stands for; of new vertices the nearest along the
         wire."""
     @property
+    def place(self) -> NDArray[np.uint8]:
+        """(v,) uint8: how each vertex was placed, as `Hierarchy.place`."""
+    @property
     def face_offsets(self) -> NDArray[np.int32]:
         """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""
     @property
@@ -473,6 +476,7 @@ class Hierarchy:
         relaxed: bool = False,
         round_limbs: bool = False,
         crisp: bool = False,
+        even: bool = False,
         progress: Progress | None = None,
     ) -> Level:
         """The level at some thresholds. A facet stays if it exceeds the first four. A vertex or an edge stays if it
@@ -498,6 +502,9 @@ class Hierarchy:
             Of wires with a loose end only those that run in round limbs.
         crisp : bool
             Vertices are at their crisp places, if the hierarchy was made with faces.
+        even : bool
+            Sheets are even triangles, each with the values of a facet that it stands for, and not the facets of the
+            Voronoi diagram. If the hierarchy was made with faces, the vertices are where balls touch them.
         progress : Progress, optional
 
         Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.
@@ -950,6 +957,7 @@ class MedialAnalysis:
         bodies: int | None = None,
         faces: Faces | None = None,
         partners: NDArray[np.int32] | None = None,
+        places: bool = True,
         progress: Progress | None = None,
     ) -> Hierarchy:
         """The levels of the inner axis; computed once, extracted often. It does not need the analysis any more.
@@ -965,10 +973,12 @@ class MedialAnalysis:
             samples at them are left out then, those with few cells first, until no more parts than bodies are left.
         faces : Faces, optional
             The faces of the solid. With them facets between the two sides of a sharp convex edge are selected,
-            whatever the thresholds say, and every vertex also has a crisp place.
+            whatever the thresholds say, and even meshes lie where balls touch the faces.
         partners : (n,) int32, optional
             The row of the partner of each point on the opposite wall, or -1, as in `SurfaceSamples.partner`. The facets
             between partners are selected, whatever the thresholds say, and they are no noise of the samples.
+        places : bool
+            With faces, every vertex also has a crisp place, which takes long.
         progress : Progress, optional
 
         Raises

@@ -248,19 +248,20 @@ void bind_analysis(py::module_& m) {
           "hierarchy",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
              Side side, std::optional<int64_t> bodies, const FacesArgument* faces,
-             const py::object& partners, Progress* progress) {
+             const py::object& partners, bool places, Progress* progress) {
             const auto input = faces ? std::optional(faces->input()) : std::nullopt;
             const auto rows =
                 partners.is_none() ? std::span<const int32_t>() : ids_of(partners, "partners");
             const py::gil_scoped_release release;
             return a.hierarchy({theta, rho, rule, criteria}, side, bodies, progress,
-                               input ? &*input : nullptr, rows);
+                               input ? &*input : nullptr, rows, places);
           },
           docs::MedialAnalysis_hierarchy, py::arg("theta") = paper.theta,
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::arg("side") = Side::inner, py::kw_only(),
           py::arg("bodies") = py::none(), py::arg("faces") = nullptr,
-          py::arg("partners") = py::none(), py::arg("progress") = nullptr)
+          py::arg("partners") = py::none(), py::arg("places") = true,
+          py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

@@ -118,6 +118,7 @@ void bind_level(py::module_& m) {
                              docs::Level_exact_radius)
       .def_property_readonly("vertex_of", view_property<int32_t>(&Level::vertex_of),
                              docs::Level_vertex_of)
+      .def_property_readonly("place", view_property<uint8_t>(&Level::place), docs::Level_place)
       .def_property_readonly("face_offsets", view_property<int32_t>(&Level::face_offsets),
                              docs::Level_face_offsets)
       .def_property_readonly("face_vertices", view_property<int32_t>(&Level::face_vertices),
@@ -234,17 +235,18 @@ void bind_hierarchy(py::module_& m) {
       .def(
           "extract",
           [](const Hierarchy& h, double sheet, double spacings, double erosion, double spike,
-             double limb, bool relaxed, bool round_limbs, bool crisp, Progress* progress) {
+             double limb, bool relaxed, bool round_limbs, bool crisp, bool even, Progress* progress) {
             const py::gil_scoped_release release;
-            return h.extract({sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp},
-                             progress);
+            return h.extract(
+                {sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp, even}, progress);
           },
           docs::Hierarchy_extract, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,
           py::arg("erosion") = LevelOptions{}.erosion, py::arg("spike") = LevelOptions{}.spike,
           py::arg("limb") = LevelOptions{}.limb, py::arg("relaxed") = LevelOptions{}.relaxed,
           py::arg("round_limbs") = LevelOptions{}.round_limbs,
-          py::arg("crisp") = LevelOptions{}.crisp, py::arg("progress") = nullptr);
+          py::arg("crisp") = LevelOptions{}.crisp, py::arg("even") = LevelOptions{}.even,
+          py::arg("progress") = nullptr);
 }
 
 }  // namespace medial::python

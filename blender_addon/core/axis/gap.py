@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .directions import facet_areas
-from .medial_axis import IN_CORNER, ON_CREASE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,10 +26,7 @@ def gap_of(hierarchy: Any) -> float | None:
     """
     offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
     area = facet_areas(hierarchy.vertices, offsets, corners) * (hierarchy.facet_spacings > 1.0)
-    is_meant = np.zeros(len(area), np.bool_)
-    if len(hierarchy.place) and len(area):
-        on_edge = np.isin(hierarchy.place, (ON_CREASE, IN_CORNER))[corners]
-        is_meant = np.logical_or.reduceat(on_edge, offsets[:-1])
+    is_meant = hierarchy.facet_spacings == np.finfo(np.float32).max  # the faces say that they are there
     return length_in_gap(100 * hierarchy.facet_sheet.astype(np.float64), area, is_meant)
 
 

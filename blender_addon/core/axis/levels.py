@@ -15,7 +15,7 @@ import numpy as np
 from ..curves.depth import Depth
 from ..machine import native
 from ..machine.cache import CACHE
-from ..settings import Form, Settings
+from ..settings import Form, Mesh, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
 from .gap import gap_of
@@ -34,7 +34,9 @@ if TYPE_CHECKING:
 _INNER = 1  # value of `_medial.Side`
 
 
-def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> Any:
+def hierarchy_of(
+    samples: AnalysedSamples, settings: Settings, progress: Any | None, places: bool = True
+) -> Any:
     """Return the `_medial.Hierarchy` of analysed samples; the cache learns that they have grown.
 
     Parameters
@@ -43,6 +45,8 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     settings : Settings
         Only `theta`, `rho`, `rule` and `criteria` matter, and `crisp` with `sharp_angle` and `smooth`.
     progress : _medial.Progress or None
+    places : bool
+        Whether its vertices need crisp places, where the faces give any.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     bodies = 1 if samples.by_faces is None else samples.by_faces[0]
     solid = samples.solid if settings.crisp else None
     hierarchy = samples.levels.hierarchy(
-        samples.analysis, settings, progress, bodies, solid, samples.partners
+        samples.analysis, settings, progress, bodies, solid, samples.partners, places
     )
     CACHE.resize(samples.key, samples.bytes)
     return hierarchy
@@ -66,10 +70,13 @@ def extract_level(
     ------
     OutOfMemoryError, Cancelled
     """
-    hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.9))
+    wanted = _wanted(settings)
+    hierarchy = hierarchy_of(
+        samples, settings, progress and progress.part(0.6), not wanted.get("even", False)
+    )
     with native.own_errors():
         level = hierarchy.extract(
-            **_wanted(settings), relaxed=relaxed, progress=progress and progress.part()
+            **wanted, relaxed=relaxed, progress=progress and progress.part()
         )
     axis = MedialAxis(
         vertices=level.vertices,
@@ -90,7 +97,7 @@ def extract_level(
             erosion=100 * level.erosion,
             limb=100 * level.limb,
             betti=level.betti,
-            place=_placing(level, hierarchy, settings),
+            place=_placing(level),
             crumb=crumb_sizes(level, samples),
             ranges=samples.levels.kept("ranges", hierarchy, ranges_of),
             gap=samples.levels.kept("gap", hierarchy, gap_of),
@@ -122,19 +129,17 @@ def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np
         return np.asarray(module.winding_number(places, shape.points, shape.triangles)) > 0.5
 
 
-def _placing(level: Any, hierarchy: Any, settings: Settings) -> NDArray[np.int32]:
+def _placing(level: Any) -> NDArray[np.int32]:
     """(v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples, but for ends of curves.
 
     A curve ends with radius 0 in the tip of a cone, or on a sharp edge.
     """
     place = np.zeros(len(level.vertices), np.int32)
-    if settings.crisp and len(hierarchy.place):
-        facets = np.unique(level.face_vertices)
-        ends = np.flatnonzero(level.radius == 0.0)
-        place[ends] = IN_CORNER
-        edges = ends[hierarchy.place[level.vertex_of[ends]] == ON_CREASE]
-        place[edges] = ON_CREASE
-        place[facets] = hierarchy.place[level.vertex_of[facets]]
+    facets = np.unique(level.face_vertices)
+    ends = np.flatnonzero(level.radius == 0.0)
+    place[ends] = IN_CORNER
+    place[ends[level.place[ends] == ON_CREASE]] = ON_CREASE
+    place[facets] = level.place[facets]
     return place
 
 
@@ -145,6 +150,7 @@ def _wanted(settings: Settings) -> dict[str, Any]:
         return {"sheet": math.inf, "limb": limb, "crisp": settings.crisp}
     return {
         "crisp": settings.crisp,
+        "even": settings.mesh is Mesh.EVEN,
         "spacings": 1.0,
         "sheet": settings.simplify / 100,
         "erosion": settings.erode / 100,

@@ -48,6 +48,7 @@ class Levels:
         bodies: int | None = None,
         solid: SolidFaces | None = None,
         partners: NDArray[np.int32] | None = None,
+        places: bool = False,
     ) -> Any:
         """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.
 
@@ -66,6 +67,8 @@ class Levels:
             The faces that give crisp places, always the same ones; without them there are none.
         partners : (n,) int32, optional
             As in `AnalysedSamples`, always the same ones.
+        places : bool
+            Whether the vertices of the hierarchy need crisp places, which take long.
 
         Raises
         ------
@@ -73,8 +76,9 @@ class Levels:
         """
         faces = () if solid is None else solid.options(settings)
         thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria, *faces)
+        places = places and solid is not None
         newest = self._newest
-        if newest is not None and newest[0] == thresholds:
+        if newest is not None and newest[0] == thresholds and (len(newest[1].place) or not places):
             return newest[1]
         self._of_newest = None, {}
         newest = self._newest = None  # frees its memory before another hierarchy takes as much
@@ -88,6 +92,7 @@ class Levels:
                 bodies=bodies,
                 faces=None if solid is None else solid.of_module(module, settings),
                 partners=partners,
+                places=places,
                 progress=progress,
             )
         self._newest = thresholds, hierarchy

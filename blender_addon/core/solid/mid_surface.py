@@ -26,7 +26,7 @@ from ..samples.outward_faces import outward_shape
 from ..samples.sample_spacing import mean_spacing
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
-from ..settings import Form, MidSurfaceSettings, Settings, Side, ThicknessSettings
+from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, ThicknessSettings
 from ..small_matrices import dot, length_of
 from ..united import united
 from .carried_sheets import CarriedSheets, carried
@@ -146,7 +146,7 @@ def mid_surface(
         )
     shape = outward_shape(shape)
     settings = replace(
-        settings, form=Form.CLEAN, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
+        settings, form=Form.CLEAN, mesh=Mesh.VORONOI, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
     )
     # Its rims go out to the walls, so smoothing them first would only take them off their places.
     found = compute_axis(shape, settings, progress, limit, relaxed=False)

@@ -64,14 +64,15 @@ class MedialAnalysis {
   // Returns all levels of the inner axis, which no longer need the analysis. If the solid is known
   // to consist of so many bodies, parts without any ball larger than the hole between the samples
   // at them are left out, those with few cells first, until no more parts than bodies are left.
-  // With faces, sheets reach the sharp convex edges, and vertices also have crisp places. Partners
+  // With faces, sheets reach the sharp convex edges, and with `places`, which take long, vertices
+  // also have crisp places. Partners
   // are, per point, the row of its partner on the opposite wall, or -1; the facets between partners
   // are selected, whatever the thresholds say. Throws InvalidInputError for other sides, and unless
   // there is a face and a partner per point; DegenerateInputError for samples that enclose nothing.
   Hierarchy hierarchy(const Thresholds& thresholds = {}, Side side = Side::inner,
                       std::optional<int64_t> bodies = std::nullopt, Progress* progress = nullptr,
                       const FacesInput* faces = nullptr,
-                      std::span<const int32_t> partners = {}) const;
+                      std::span<const int32_t> partners = {}, bool places = true) const;
 
   // Returns for each sample, ascending by row, the largest circumradius in its umbrella, infinite
   // for an empty one.

@@ -13,6 +13,16 @@ namespace medial {
 
 using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
 
+// How a vertex of a level was placed.
+enum class Placing : uint8_t {
+  voronoi,   // at a Voronoi vertex, or of a wire, or where no faces are known
+  refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
+  touching,  // the ball touches the walls, and no face is nearer
+  rim,       // at the end of a sheet, where the two places that the ball touches become one
+  crease,    // on a convex crease, with radius 0
+  corner     // at the end of convex creases, with radius 0
+};
+
 // These options choose which cells stay, and how they are shown. A cell stays if it exceeds the
 // first four thresholds, or the fifth one; cells that the collapse left always stay. Infinity
 // removes every cell that can be removed.
@@ -25,8 +35,11 @@ struct LevelOptions {
   bool round_limbs = false;  // keep wires with a loose end only in round limbs
   // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.
   bool relaxed = false;
-  // Vertices are at their crisp places, if the hierarchy has any.
+  // Vertices are where balls touch the faces, if the hierarchy has any: its crisp places, or if
+  // `even` those of the even mesh.
   bool crisp = false;
+  // Sheets are even triangles in place of the facets of the Voronoi diagram.
+  bool even = false;
 };
 
 // A level is a mesh of polygons, edges without a facet, and single vertices.
@@ -38,6 +51,7 @@ struct Level {
   Column<int32_t> vertex_of;      // (v) id in the hierarchy
   Column<Vec3> exact;             // (v) its place
   Column<double> exact_radius;    // (v) of the empty ball there
+  Column<Placing> place;          // (v)
   Column<int32_t> face_offsets;   // (f + 1)
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order

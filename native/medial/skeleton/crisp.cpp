@@ -27,7 +27,7 @@ void place(CrispState& state, int32_t v) {
   if (!(found.radius > 0)) return;
   state.take(v, found);
   if (state.on_rim[v] && found.walls.count == 2)
-    state.smooth_rim[v] = smooth_rim_of(state, v, found);
+    state.smooth_rim[v] = smooth_rim_of(state.samples.faces(), state.spacing_at(v), found);
 }
 
 }  // namespace

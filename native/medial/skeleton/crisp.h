@@ -5,6 +5,8 @@
 // change, so all levels keep their topology.
 #pragma once
 
+#include <medial/hierarchy.h>
+
 #include "skeleton/samples_on_faces.h"
 #include "skeleton/values.h"
 
@@ -12,15 +14,6 @@ namespace medial {
 
 // How far the bar of a hierarchy is where this stage begins, which ends it.
 inline constexpr double kBarOfCrispPlaces = 0.32;
-
-enum class Placing : uint8_t {
-  voronoi,   // the vertex of a wire, one of samples on no face, or one of dense samples
-  refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
-  touching,  // the ball touches the walls, and no face is nearer
-  rim,       // at the end of a sheet, where the two places that the ball touches become one
-  crease,    // on a convex crease, with radius 0
-  corner     // at the end of convex creases, with radius 0
-};
 
 struct CrispPlaces {
   Array<Vec3> position;    // (v)

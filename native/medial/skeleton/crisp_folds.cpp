@@ -208,7 +208,7 @@ class Unfolder {
       if (walls.count != 2) return;
       if (std::find(tried.begin(), tried.end(), walls) != tried.end()) return;
       tried.push_back(walls);
-      const Touch found = nearly_touching(c_, v, walls, here, within);
+      const Touch found = nearly_empty_ball(c_.samples, c_.spacing_at(v), walls, here, within);
       if (!(found.radius > 0)) return;
       best = found;
       within = distance(found.position, here);

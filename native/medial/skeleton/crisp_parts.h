@@ -3,37 +3,10 @@
 #pragma once
 
 #include "base/csr.h"
-#include "contact/touching_ball.h"
 #include "skeleton/crisp.h"
+#include "skeleton/smooth_rim.h"
 
 namespace medial {
-
-// Holds the walls that a ball touches, by triangles of the mesh.
-struct Walls {
-  std::array<int32_t, kMostContacts> triangle{-1, -1, -1, -1};
-  size_t count = 0;
-
-  std::span<int32_t> all() { return {triangle.data(), count}; }
-  bool add(int32_t t) {
-    if (count == kMostContacts) return false;
-    triangle[count++] = t;
-    return true;
-  }
-  bool operator==(const Walls&) const = default;
-};
-
-struct Touch {
-  Vec3 position;
-  double radius = 0;  // 0: there is no empty ball that touches the walls
-  Walls walls{};
-  std::array<Vec3, kMostContacts> away{};  // unit directions from the feet
-};
-
-// Tells how far, and in which direction, a smooth rim is; 0 if there is none.
-struct SmoothRim {
-  Vec3 outward;
-  double reach = 0;
-};
 
 // A vertex, and two samples that a facet without area separates there.
 using Hidden = std::array<int32_t, 3>;
@@ -119,16 +92,6 @@ Walls walls_at(const CrispState& state, int32_t v, bool thorough);
 // a number of walls.
 Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start,
             size_t most = kMostContacts);
-// Finds a ball that touches some walls, although others are as near but for what smooth faces are
-// off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
-// the nearest face. The place is nearer than a distance to the given one.
-Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start,
-                      double within);
-
-// Returns the squared sine of half the angle between the directions to the first two feet.
-inline double openness(const std::array<Vec3, kMostContacts>& away) {
-  return 0.5 * (1 - dot(away[0], away[1]));
-}
 
 // --- crisp_creases.cpp: rims that end in creases
 
@@ -163,8 +126,6 @@ class CreaseRims {
 
 // Moves the vertices of smooth rims to where the two places that a ball touches become one.
 void settle_smooth_rims(CrispState& state);
-// Returns how far a smooth rim is from a ball that touches two places, and in which direction.
-SmoothRim smooth_rim_of(const CrispState& state, int32_t v, const Touch& inner);
 
 // --- crisp_rim_order.cpp
 

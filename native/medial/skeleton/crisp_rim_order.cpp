@@ -121,7 +121,7 @@ class RimOrder {
     const SmoothRim& rim = c_.smooth_rim[v];
     const Touch inner = touch(c_, v, c_.walls[v], here - rim.reach * rim.outward);
     if (!(inner.radius > 0) || inner.walls.count != 2) return here;
-    const SmoothRim again = smooth_rim_of(c_, v, inner);
+    const SmoothRim again = smooth_rim_of(c_.samples.faces(), c_.spacing_at(v), inner);
     const Vec3 place = inner.position + again.reach * again.outward;
     return again.reach > 0 && distance(place, here) < kDeepest * c_.spacing_at(v) ? place : here;
   }

@@ -188,7 +188,7 @@ std::vector<double> bounded_spacing(const Samples& samples, std::span<const doub
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
                          const FacesInput* faces, std::span<const int32_t> partners,
-                         const Frame& frame, const Run& run) {
+                         bool places, const Frame& frame, const Run& run) {
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
@@ -196,17 +196,17 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   Stopwatch watch(made.timings);
   const std::span<const double> spacing = facets.significance.spacing;
   std::vector<double> bounded;
-  std::optional<SamplesOnFaces> on_faces;
   std::vector<EdgeMark> marks;
-  const Bar& bar = faces ? kWithFaces : kWithoutFaces;
+  const Bar& bar = faces && places ? kWithFaces : kWithoutFaces;
   if (faces) {
-    begin_stage(run.progress, "Faces", 0, bar.complex);
+    begin_stage(run.progress, "Faces", 0, std::max(bar.complex, 0.1));
     // The faces outlive the arena.
     made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
                                          Run{run.threads, run.progress, nullptr});
     if (!partners.empty()) bounded = bounded_spacing(samples, spacing, run);
-    on_faces.emplace(*faces, *made.faces, samples, partners.empty() ? spacing : bounded, run);
-    marks = crease_marks(*on_faces, facets.edges, run);
+    made.on_faces = std::make_unique<SamplesOnFaces>(*faces, *made.faces, samples,
+                                                     partners.empty() ? spacing : bounded, run);
+    marks = crease_marks(*made.on_faces, facets.edges, run);
     watch.lap("faces");
   }
   if (!partners.empty()) {
@@ -225,15 +225,17 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   const auto beside_limbs = [&] {
     made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
     made.row = samples.row;
+    made.spacing.assign(spacing.begin(), spacing.end());
+    if (!bounded.empty()) made.spacing = bounded;
   };
   collapse_all(made, facets, weight, beside_fire, beside_limbs, bar, watch, run);
   release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
-  if (on_faces) {
+  if (made.on_faces && places) {
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
     const Alive left = alive_at(made, {.spacings = 1}, {run.threads, nullptr, run.arena});
-    made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
+    made.crisp = crisp_places(made.complex, facets.triangulation, *made.on_faces, made.values.facet,
                               made.sine, selected, left.edge, run);
     watch.lap("crisp");
   } else {
@@ -262,7 +264,8 @@ size_t Hierarchy::bytes() const {
                  c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, p.row,
                  p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place) +
          (c.dual.size() + c.cell.size()) * sizeof(float) +  // of `spikes`, known or not
-         p.samples.bytes() + (p.faces ? p.faces->bytes() : 0);
+         p.samples.bytes() + p.spacing.size() * sizeof(double) +
+         (p.faces ? p.faces->bytes() + p.on_faces->bytes() : 0);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 

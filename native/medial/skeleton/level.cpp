@@ -5,6 +5,7 @@
 #include "base/raise.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
+#include "skeleton/even_sheets.h"
 #include "skeleton/relax.h"
 #include "skeleton/round_limbs.h"
 #include "skeleton/teeth.h"
@@ -240,8 +241,10 @@ class Drawer {
     });
     level_.exact = level_.vertices;
     level_.exact_radius = level_.radius;
+    level_.place.assign(level_.vertex_of.size(), Placing::voronoi);
     if (!crisp_) return;
     parallel_for(static_cast<int64_t>(level_.vertex_of.size()), run_, [&](int64_t v) {
+      level_.place[v] = h_.crisp.place[level_.vertex_of[v]];
       level_.vertices[v] = h_.crisp.position[level_.vertex_of[v]];
       level_.radius[v] = h_.crisp.radius[level_.vertex_of[v]];
     });
@@ -326,12 +329,13 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
-  const bool crisp = options.crisp && !h.crisp.place.empty();
+  const bool crisp = options.crisp && !options.even && !h.crisp.place.empty();
   Drawer drawer(h, alive, crisp, quiet);
   Level level = drawer.draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
-  if (options.relaxed) relax(level, drawer.rims(), h, crisp, run);
+  if (options.even) make_even(level, h, options.crisp, run);
+  if (options.relaxed) relax(level, options.even ? std::vector<Edge>{} : drawer.rims(), h, crisp, run);
   advance(run.progress, 1);
   return level;
 }

@@ -27,9 +27,11 @@ struct Hierarchy::Parts {
   Array<float> limb;                   // per vertex
   Array<double> sine, rho;             // per facet, as in Significance
   std::unique_ptr<const Faces> faces;  // null if there are none
+  std::unique_ptr<const SamplesOnFaces> on_faces;  // likewise
   CrispPlaces crisp;                   // empty without faces
   PointTree samples;
-  std::vector<int32_t> row;  // of each sample in the input
+  std::vector<int32_t> row;     // of each sample in the input
+  std::vector<double> spacing;  // of each sample: the largest hole beside it
   Array<int32_t> outside;    // result of outside_components
   Betti betti = {};          // of the complex
   int threads = 1;

@@ -145,6 +145,7 @@ class Rewirer {
     keep(level_.exact);
     keep(level_.exact_radius);
     keep(level_.vertex_of);
+    keep(level_.place);
     for (int32_t& v : level_.points) v = number_[v];
   }
 
@@ -192,6 +193,7 @@ class Rewirer {
     level_.exact.push_back(old_exact_[old]);
     level_.exact_radius.push_back(old_exact_radius_[old]);
     level_.vertex_of.push_back(old_vertex_of_[old]);
+    level_.place.push_back(Placing::voronoi);
     return static_cast<int32_t>(level_.vertices.size()) - 1;
   }
 

@@ -36,8 +36,7 @@ SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, cons
                                std::span<const double> spacing, const Run& run)
     : faces_(faces),
       creases_(faces, middle_of(spacing)),
-      samples_(samples),
-      spacing_(spacing),
+      spacing_(spacing.begin(), spacing.end()),
       tree_(std::span(samples.points.data(), samples.row.size())),
       reach_(kNearSamples * middle_of(spacing)),
       most_alike_(portable::cos(input.sharp_angle)),
@@ -51,7 +50,7 @@ SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, cons
 }
 
 void SamplesOnFaces::place(int32_t s, int32_t triangle) {
-  const Vec3& point = samples_.points[s];
+  const Vec3& point = tree_[s];
   triangle_[s] = triangle;
   const Foot foot = faces_.foot_on(triangle, point);
   normals_[s][0] = faces_.normal(triangle, foot.at);
@@ -64,6 +63,11 @@ void SamplesOnFaces::place(int32_t s, int32_t triangle) {
     if (coordinates[i] > kOnCrease || edge.crease != Crease::sharp || faces_.separates(e)) continue;
     normals_[s][1] = faces_.mesh().normal[edge.triangles[edge.triangles[0] == triangle]];
   }
+}
+
+size_t SamplesOnFaces::bytes() const {
+  return tree_.bytes() + triangle_.size() * (sizeof(double) + sizeof(int32_t) + 1) +
+         normals_.size() * sizeof(normals_[0]);
 }
 
 bool SamplesOnFaces::are_near(const Vec3& place) const { return tree_.has_within(place, reach_); }

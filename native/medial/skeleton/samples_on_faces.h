@@ -15,15 +15,15 @@ enum class EdgeMark : uint8_t { none, into_crease, at_crease, between_partners }
 
 class SamplesOnFaces {
  public:
-  // The arguments must outlive this object; `spacing` is per sample. Throws InvalidInputError
-  // unless there is a face, or -1, per row of the samples.
+  // The faces must outlive this object; `spacing` is per sample. Throws InvalidInputError unless
+  // there is a face, or -1, per row of the samples.
   SamplesOnFaces(const FacesInput& input, const Faces& faces, const Samples& samples,
                  std::span<const double> spacing, const Run& run);
 
   const Faces& faces() const { return faces_; }
   const ConvexCreases& creases() const { return creases_; }
   int64_t count() const { return static_cast<int64_t>(triangle_.size()); }
-  const Vec3& point(int32_t sample) const { return samples_.points[sample]; }
+  const Vec3& point(int32_t sample) const { return tree_[sample]; }
   double spacing(int32_t sample) const { return spacing_[sample]; }
   // Returns the triangle of the mesh on which a sample lies, or -1.
   int32_t triangle(int32_t sample) const {
@@ -45,6 +45,7 @@ class SamplesOnFaces {
   int32_t triangle_near(const Vec3& place) const { return triangle(tree_.nearest(place).id); }
   // Returns the distance within which a sample is near.
   double reach() const { return reach_; }
+  size_t bytes() const;
 
  private:
   void place(int32_t sample, int32_t triangle);
@@ -58,8 +59,7 @@ class SamplesOnFaces {
 
   const Faces& faces_;
   ConvexCreases creases_;
-  const Samples& samples_;
-  std::span<const double> spacing_;
+  std::vector<double> spacing_;
   PointTree tree_;
   double reach_ = 0;
   double most_alike_ = 0;  // the cosine of the sharp angle

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A mesh of sheets in space, with what its vertices and triangles stand for.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/vec3.h"
+#include "remesh/sheet_mesh.h"
+
+namespace medial {
+
+// Values of EvenMesh::held.
+inline constexpr uint8_t kFree = 0, kOnLine = 1, kInCorner = 2;
+
+// A mesh, and what belongs to its vertices and triangles.
+struct EvenMesh {
+  SheetMesh mesh;
+  std::vector<Vec3> position;   // (v)
+  std::vector<double> target;   // (v) wanted length of the edges there
+  std::vector<int32_t> origin;  // (v) the vertex of the input that it stands for
+  // (v) whether the vertex is held on a line, along which alone it moves and is collapsed, or in a
+  // corner of lines, which is a node
+  std::vector<uint8_t> held;
+  std::vector<int32_t> source;  // (t) the facet of the input that it stands for
+  // (t) unit normal, by which turns are judged: of the facet as long as the triangle has none that
+  // is worth the name
+  std::vector<Vec3> normal;
+};
+
+// Returns whether a triangle would keep its side if one of its corners moved to a place.
+bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place);
+// Returns whether all triangles at a vertex would.
+bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
+void move(EvenMesh& even, int32_t v, const Vec3& place);
+// Takes over the normal of a triangle whose corners have moved.
+void settle_normal(EvenMesh& even, int32_t triangle);
+// Returns the normals of the two triangles at an edge as they would be after SheetMesh::flip;
+// nothing if one of them would be turned over.
+std::optional<std::array<Vec3, 2>> normals_of_flip(const EvenMesh& even, int32_t a, int32_t b);
+// Returns the mean direction across the sheet at a vertex, whose triangles may be turned either
+// way; unit, or zero.
+Vec3 normal_at(const EvenMesh& even, int32_t v);
+
+}  // namespace medial

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/parallel.h"
+
+namespace medial {
+namespace {
+
+// An edge longer than the first share of its target is split, one shorter than the second share is
+// collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
+constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
+constexpr int kCollapsePasses = 10;      // at most; each takes the shortest edges first
+constexpr double kFewCollapses = 0.01;   // of the vertices end the passes
+constexpr int kCurveSteps = 3;           // towards the middle of the neighbours along a curve
+constexpr double kStep = 0.5;            // of the way to there, which levels a zigzag at once
+
+class Remesher {
+ public:
+  Remesher(EvenMesh& even, const RemeshOptions& options, const Run& run)
+      : e_(even), mesh_(even.mesh), options_(options), run_(run) {}
+
+  void split() {
+    for (const auto& [longness, a, b] : edges_beyond(-1)) {
+      throw_if_cancelled(run_.progress);
+      split(a, b);
+    }
+  }
+
+  void collapse() {
+    for (int pass = 0; pass < kCollapsePasses; ++pass) {
+      int64_t done = 0, vertices = 0;
+      for (int32_t v = 0; v < mesh_.vertices(); ++v) vertices += mesh_.has_triangles(v);
+      for (const auto& [shortness, a, b] : edges_beyond(1)) {
+        done += collapse(a, b) || collapse(b, a);
+      }
+      throw_if_cancelled(run_.progress);
+      if (static_cast<double>(done) <= kFewCollapses * static_cast<double>(vertices)) return;
+    }
+  }
+
+  void flip() {
+    for (const auto& [a, b] : mesh_.edges()) {
+      if (is_skew(a, b) && mesh_.can_flip(a, b)) flip_if_flat(a, b);
+    }
+  }
+
+  void smooth() {
+    const int steps = options_.moves_curves ? kCurveSteps : 1;
+    for (int i = 0; i < steps; ++i) {
+      if (options_.moves_curves) step(Stratum::node);
+      step(Stratum::curve);
+    }
+    step(Stratum::sheet);
+  }
+
+ private:
+  struct Ranked {
+    double rank;
+    int32_t a, b;
+    bool operator<(const Ranked& other) const {
+      return std::tie(rank, a, b) < std::tie(other.rank, other.a, other.b);
+    }
+  };
+
+  double edge_length(int32_t a, int32_t b) const {
+    return distance(e_.position[a], e_.position[b]);
+  }
+  double target(int32_t a, int32_t b) const { return 0.5 * (e_.target[a] + e_.target[b]); }
+
+  // Returns the edges that are too short (sign 1), shortest first, or too long (-1), longest first.
+  std::vector<Ranked> edges_beyond(double sign) const {
+    std::vector<Ranked> found;
+    for (const auto& [a, b] : mesh_.edges()) {
+      const double share = edge_length(a, b) / target(a, b);
+      if (sign > 0 ? share < kShort : share > kLong) found.push_back({sign * share, a, b});
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  void split(int32_t a, int32_t b) {
+    const bool on_line = e_.held[a] && e_.held[b] && !mesh_.is_inside_sheet(a, b);
+    const std::vector<int32_t> halves = mesh_.triangles_at(a, b);
+    const Vec3 middle = 0.5 * (e_.position[a] + e_.position[b]);
+    mesh_.split(a, b, split_off_);
+    e_.position.push_back(on_line ? options_.onto_line(middle) : middle);
+    e_.target.push_back(target(a, b));
+    e_.origin.push_back(e_.origin[a]);
+    e_.held.push_back(on_line);
+    for (const int32_t t : halves) {
+      e_.source.push_back(e_.source[t]);
+      e_.normal.push_back(e_.normal[t]);
+    }
+  }
+
+  bool collapse(int32_t from, int32_t to) {
+    if (mesh_.stratum(from) > mesh_.stratum(to) || !mesh_.has_triangles(from)) return false;
+    if (!(edge_length(from, to) < kShort * target(from, to))) return false;
+    if (!mesh_.can_collapse(from, to) || !keeps_line(from, to)) return false;
+    const Vec3& place = e_.position[to];
+    bool fits = true;
+    mesh_.for_triangles(from, [&](int32_t t) {
+      const Edge others = link_of(mesh_.triangle(t), from);
+      if (!fits || others[0] == to || others[1] == to) return;
+      fits = keeps_side(e_, t, from, place);
+      for (const int32_t other : others) {
+        fits = fits && distance(e_.position[other], place) < kLong * target(other, to);
+      }
+    });
+    if (!fits) return false;
+    moved_.clear();
+    mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
+    mesh_.collapse(from, to);
+    for (const int32_t t : moved_) settle_normal(e_, t);
+    return true;
+  }
+
+  // A held line keeps its bends.
+  bool keeps_line(int32_t from, int32_t to) const {
+    if (!e_.held[from]) return true;
+    const Edge along = mesh_.along_curve(from);
+    const int32_t other = along[0] == to ? along[1] : along[0];
+    const Vec3 way = normalized(e_.position[to] - e_.position[other]);
+    const Vec3 off = e_.position[from] - e_.position[other];
+    return length(off - dot(off, way) * way) <= options_.chord;
+  }
+
+  // Returns whether the angles across an edge sum up to more than half a turn.
+  bool is_skew(int32_t a, int32_t b) const {
+    const auto& two = mesh_.triangles_at(a, b);
+    if (two.size() != 2) return false;
+    std::array<double, 2> cosine{}, sine{};
+    for (int i = 0; i < 2; ++i) {
+      const Vec3& c = e_.position[mesh_.third_corner(two[i], a, b)];
+      cosine[i] = dot(e_.position[a] - c, e_.position[b] - c);
+      sine[i] = length(cross(e_.position[a] - c, e_.position[b] - c));
+    }
+    return cosine[0] * sine[1] + cosine[1] * sine[0] < 0;
+  }
+
+  void flip_if_flat(int32_t a, int32_t b) {
+    const std::array<int32_t, 2> two{mesh_.triangles_at(a, b)[0], mesh_.triangles_at(a, b)[1]};
+    const auto normals = normals_of_flip(e_, a, b);
+    if (!normals) return;
+    mesh_.flip(a, b);
+    for (int i = 0; i < 2; ++i) e_.normal[two[i]] = (*normals)[i];
+  }
+
+  Vec3 wanted_place(int32_t v) const {
+    if (mesh_.stratum(v) == Stratum::sheet) return centre_of_sheet(v);
+    if (mesh_.stratum(v) == Stratum::node) return centre_of_curves(v);
+    const Edge along = mesh_.along_curve(v);
+    const Vec3 &a = e_.position[along[0]], &b = e_.position[along[1]], &here = e_.position[v];
+    const Vec3 way = 0.5 * (a + b) - here;
+    if (e_.held[v]) return options_.onto_line(here + kStep * way);
+    if (options_.moves_curves) return here + kStep * way;
+    const Vec3 tangent = normalized(b - a);
+    return here + kStep * dot(way, tangent) * tangent;
+  }
+
+  // Returns the place half way to the mean of the neighbours along the seams of a node; one at a rim
+  // is a tip, which would be rounded off.
+  Vec3 centre_of_curves(int32_t v) const {
+    Vec3 sum;
+    const auto beside = mesh_.curve_neighbours(v);
+    if (mesh_.stays(v) || beside.empty()) return e_.position[v];
+    for (const int32_t other : beside) {
+      if (mesh_.uses(v, other) == 1) return e_.position[v];
+      sum = sum + e_.position[other];
+    }
+    return (1 - kStep) * e_.position[v] + (kStep / static_cast<double>(beside.size())) * sum;
+  }
+
+  // Returns the mean of the triangles' centres, weighted by area, but no place across the sheet.
+  Vec3 centre_of_sheet(int32_t v) const {
+    const Vec3& here = e_.position[v];
+    Vec3 sum;
+    double weight = 0;
+    mesh_.for_triangles(v, [&](int32_t t) {
+      const Edge others = link_of(mesh_.triangle(t), v);
+      const Vec3 a = e_.position[others[0]] - here, b = e_.position[others[1]] - here;
+      const double area = length(cross(a, b));
+      sum = sum + (area / 3) * (a + b);
+      weight += area;
+    });
+    if (!(weight > 0)) return here;
+    const Vec3 way = (1 / weight) * sum, across = normal_at(e_, v);
+    return here + way - dot(way, across) * across;
+  }
+
+  void step(Stratum stratum) {
+    const auto count = static_cast<int64_t>(mesh_.vertices());
+    std::vector<Vec3> wanted(e_.position);
+    parallel_for(count, {run_.threads, nullptr, nullptr}, [&](int64_t id) {
+      const auto v = static_cast<int32_t>(id);
+      if (mesh_.has_triangles(v) && mesh_.stratum(v) == stratum) wanted[v] = wanted_place(v);
+    });
+    for (int32_t v = 0; v < mesh_.vertices(); ++v) {
+      if (wanted[v] == e_.position[v]) continue;
+      if (keeps_sides(e_, v, wanted[v])) move(e_, v, wanted[v]);
+    }
+  }
+
+  EvenMesh& e_;
+  SheetMesh& mesh_;
+  const RemeshOptions& options_;
+  const Run& run_;
+  std::vector<int32_t> moved_, split_off_;
+};
+
+}  // namespace
+
+void remesh(EvenMesh& even, const RemeshOptions& options, const Run& run) {
+  Remesher remesher(even, options, run);
+  remesher.split();
+  remesher.collapse();
+  remesher.flip();
+  remesher.smooth();
+}
+
+}  // namespace medial

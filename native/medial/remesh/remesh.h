@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the triangles of sheets even: edges get a wanted length, by splits, collapses, flips and
+// tangential smoothing (Botsch and Kobbelt 2004). Topology and strata stay.
+#pragma once
+
+#include <functional>
+
+#include "base/run.h"
+#include "remesh/even_mesh.h"
+
+namespace medial {
+
+struct RemeshOptions {
+  // Curves move to the middle of their neighbours, too, which takes the zigzag of samples off them;
+  // else vertices of curves move along them only.
+  bool moves_curves = false;
+  double chord = 0;  // the distance that the chord of a held line may miss a vertex by
+  // Returns the place of the line that is nearest to where a held vertex would go.
+  std::function<Vec3(const Vec3&)> onto_line;
+};
+
+// Splits, collapses, flips and smooths once.
+void remesh(EvenMesh& even, const RemeshOptions& options, const Run& run);
+
+}  // namespace medial

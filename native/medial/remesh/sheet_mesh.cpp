@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remesh/sheet_mesh.h"
+
+#include <algorithm>
+
+namespace medial {
+
+SheetMesh::SheetMesh(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
+                     std::span<const uint8_t> is_node)
+    : triangles_(std::move(triangles)),
+      first_(vertices, -1),
+      next_(3 * triangles_.size()),
+      before_(3 * triangles_.size()),
+      stratum_(vertices, Stratum::node),
+      stays_(is_node.begin(), is_node.end()),
+      mark_(vertices, 0) {
+  for (const auto& [a, b] : wires) {
+    wires_.push_back({a, b});
+    wires_.push_back({b, a});
+  }
+  std::sort(wires_.begin(), wires_.end());
+  for (const Edge& wire : wires_) stays_[wire[0]] = 1;
+  for (int32_t c = 3 * this->triangles() - 1; c >= 0; --c) link(c);
+  for (int32_t v = 0; v < vertices; ++v) {
+    if (!stays_[v]) stratum_[v] = find_stratum(v);
+  }
+}
+
+void SheetMesh::link(int32_t corner) {
+  int32_t& first = first_[triangles_[corner / 3][corner % 3]];
+  next_[corner] = first;
+  before_[corner] = -1;
+  if (first >= 0) before_[first] = corner;
+  first = corner;
+}
+
+void SheetMesh::unlink(int32_t corner) {
+  const int32_t next = next_[corner], before = before_[corner];
+  if (next >= 0) before_[next] = before;
+  (before >= 0 ? next_[before] : first_[triangles_[corner / 3][corner % 3]]) = next;
+}
+
+void SheetMesh::replace_corner(int32_t t, int32_t from, int32_t to) {
+  const int32_t corner = 3 * t + corner_of(triangles_[t], from);
+  unlink(corner);
+  triangles_[t][corner % 3] = to;
+  link(corner);
+}
+
+int SheetMesh::uses(int32_t a, int32_t b) const {
+  int count = 0;
+  for_corners(a, [&](int32_t other) { count += other == b; });
+  return count;
+}
+
+const std::vector<int32_t>& SheetMesh::triangles_at(int32_t a, int32_t b) const {
+  at_edge_.clear();
+  for_triangles(a, [&](int32_t t) {
+    const Edge others = link_of(triangles_[t], a);
+    if (others[0] == b || others[1] == b) at_edge_.push_back(t);
+  });
+  return at_edge_;
+}
+
+std::vector<int32_t> SheetMesh::curve_neighbours(int32_t v) const {
+  std::vector<int32_t> all, found;
+  for_corners(v, [&](int32_t other) { all.push_back(other); });
+  std::sort(all.begin(), all.end());
+  for (size_t i = 0, end = 0; i < all.size(); i = end) {
+    while (end < all.size() && all[end] == all[i]) ++end;
+    if (end - i != 2) found.push_back(all[i]);
+  }
+  return found;
+}
+
+Edge SheetMesh::along_curve(int32_t v) const {
+  const auto found = curve_neighbours(v);
+  return {found[0], found[1]};
+}
+
+Stratum SheetMesh::find_stratum(int32_t v) const {
+  if (!has_triangles(v)) return Stratum::node;
+  const auto ends = curve_neighbours(v);
+  if (ends.empty()) return link_is_circle(v) ? Stratum::sheet : Stratum::node;
+  if (ends.size() != 2 || uses(v, ends[0]) != uses(v, ends[1])) return Stratum::node;
+  return link_is_arcs(v, ends[0], ends[1]) ? Stratum::curve : Stratum::node;
+}
+
+namespace {
+
+// Goes along the edges of a link from `at` to `to`, or until no edge is left. Returns how many
+// edges it went along, and takes them out of the list.
+int go_along(std::vector<Edge>& edges, int32_t at, int32_t to) {
+  int count = 0;
+  do {
+    const auto next = std::find_if(edges.begin(), edges.end(), [&](const Edge& e) {
+      return e[0] == at || e[1] == at;
+    });
+    if (next == edges.end()) return count;
+    at = (*next)[0] == at ? (*next)[1] : (*next)[0];
+    *next = edges.back();
+    edges.pop_back();
+    ++count;
+  } while (at != to);
+  return count;
+}
+
+}  // namespace
+
+bool SheetMesh::link_is_circle(int32_t v) const {
+  std::vector<Edge> edges;
+  for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
+  const int32_t start = edges.front()[0];
+  go_along(edges, start, start);
+  return edges.empty();
+}
+
+bool SheetMesh::link_is_arcs(int32_t v, int32_t from, int32_t to) const {
+  std::vector<Edge> edges;
+  for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
+  const auto is_at = [](int32_t vertex) {
+    return [vertex](const Edge& e) { return e[0] == vertex || e[1] == vertex; };
+  };
+  const auto arcs = std::count_if(edges.begin(), edges.end(), is_at(from));
+  for (std::ptrdiff_t arc = 0; arc < arcs; ++arc) {
+    go_along(edges, from, to);
+    // An arc that came back to where it began has taken two of its edges.
+    if (std::count_if(edges.begin(), edges.end(), is_at(from)) != arcs - arc - 1) return false;
+  }
+  return edges.empty();
+}
+
+std::vector<Edge> SheetMesh::edges() const {
+  std::vector<Edge> all;
+  std::vector<int32_t> above;
+  all.reserve(3 * triangles_.size() / 2);
+  for (int32_t v = 0; v < vertices(); ++v) {
+    above.clear();
+    for_corners(v, [&](int32_t other) {
+      if (other > v) above.push_back(other);
+    });
+    std::sort(above.begin(), above.end());
+    const auto end = std::unique(above.begin(), above.end());
+    for (auto other = above.begin(); other != end; ++other) all.push_back({v, *other});
+  }
+  return all;
+}
+
+bool SheetMesh::is_wired(int32_t a, int32_t b) const {
+  return std::binary_search(wires_.begin(), wires_.end(), Edge{a, b});
+}
+
+bool SheetMesh::has_triangle(int32_t a, int32_t b, int32_t c) const {
+  bool found = false;
+  for_triangles(a, [&](int32_t t) {
+    const Edge e = link_of(triangles_[t], a);
+    found = found || (e[0] == b && e[1] == c) || (e[0] == c && e[1] == b);
+  });
+  return found;
+}
+
+// Where a vertex goes along its curve, an edge from it to a third vertex falls together with the
+// edge from there to the other end. Where both are parts of curves, the triangle between them was a
+// whole sheet, smaller than the edges shall be, and the two curves become one, but for the last
+// triangle between three rims.
+SheetMesh::Merge SheetMesh::merge_of(int32_t from, int32_t to) const {
+  Merge found = Merge::keeps_curves;
+  const std::vector<int32_t> at_edge = triangles_at(from, to);
+  for (const int32_t t : at_edge) {
+    const int32_t third = third_corner(t, from, to);
+    const int one = uses(from, third), other = uses(to, third);
+    if (one == 2 || other == 2) continue;
+    if (one + other == 2) return Merge::loses_triangle;
+    found = Merge::joins_curves;
+  }
+  return found;
+}
+
+// The link condition: the links of the two ends have in common what the link of the edge is, which
+// is the third corners of the triangles at it. For any complex the collapse of such an edge keeps
+// the homotopy type (Dey, Edelsbrunner, Guha and Nekhayev 1999; Attali, Lieutier and Salinas 2011).
+bool SheetMesh::can_collapse(int32_t from, int32_t to) const {
+  if (stays_[from] || stratum_[from] > stratum_[to]) return false;
+  const int at_edge = uses(from, to);
+  if (at_edge == 0 || (stratum_[from] != Stratum::sheet && at_edge == 2)) return false;
+  const uint32_t beside = newest_mark_ + 1, common = newest_mark_ += 2;
+  for_corners(from, [&](int32_t other) { mark_[other] = beside; });
+  int count = 0;
+  const auto find_common = [&](int32_t other) {
+    if (mark_[other] != beside || other == to) return;
+    mark_[other] = common;
+    ++count;
+  };
+  for_corners(to, find_common);
+  auto wire = std::lower_bound(wires_.begin(), wires_.end(), Edge{to, -1});
+  for (; wire != wires_.end() && (*wire)[0] == to; ++wire) find_common((*wire)[1]);
+  if (count != at_edge) return false;
+  bool closes = false;
+  for_triangles(from, [&](int32_t t) {
+    const auto& [a, b] = link_of(triangles_[t], from);
+    closes = closes || (mark_[a] == common && mark_[b] == common && has_triangle(to, a, b));
+  });
+  return !closes && (stratum_[from] == Stratum::sheet || merge_of(from, to) != Merge::loses_triangle);
+}
+
+void SheetMesh::collapse(int32_t from, int32_t to) {
+  const bool joins = stratum_[from] != Stratum::sheet && merge_of(from, to) == Merge::joins_curves;
+  const std::vector<int32_t> at_edge = triangles_at(from, to);
+  for (const int32_t t : at_edge) {
+    for (int i = 0; i < 3; ++i) unlink(3 * t + i);
+    triangles_[t] = {-1, -1, -1};
+  }
+  while (first_[from] >= 0) replace_corner(first_[from] / 3, from, to);
+  if (!joins) return;
+  std::vector<int32_t> beside{to};
+  for_corners(to, [&](int32_t other) { beside.push_back(other); });
+  for (const int32_t v : beside) {
+    if (!stays_[v]) stratum_[v] = find_stratum(v);
+  }
+}
+
+bool SheetMesh::can_flip(int32_t a, int32_t b) const {
+  const auto& two = triangles_at(a, b);
+  if (two.size() != 2) return false;
+  const int32_t c = third_corner(two[0], a, b), d = third_corner(two[1], a, b);
+  return uses(c, d) == 0 && !is_wired(c, d);
+}
+
+void SheetMesh::flip(int32_t a, int32_t b) {
+  const int32_t s = triangles_at(a, b)[0], t = at_edge_[1];
+  const int32_t c = third_corner(s, a, b), d = third_corner(t, a, b);
+  replace_corner(s, b, d);
+  replace_corner(t, a, c);
+}
+
+int32_t SheetMesh::split(int32_t a, int32_t b, std::vector<int32_t>& split_off) {
+  const auto middle = static_cast<int32_t>(first_.size());
+  const std::vector<int32_t> at_edge = triangles_at(a, b);
+  first_.push_back(-1);
+  mark_.push_back(0);
+  stays_.push_back(0);
+  stratum_.push_back(at_edge.size() == 2 ? Stratum::sheet : Stratum::curve);
+  split_off.clear();
+  for (const int32_t t : at_edge) {
+    const auto half = static_cast<int32_t>(triangles_.size());
+    Triangle other = triangles_[t];
+    other[corner_of(other, a)] = middle;
+    replace_corner(t, b, middle);
+    triangles_.push_back(other);
+    next_.resize(next_.size() + 3);
+    before_.resize(before_.size() + 3);
+    for (int i = 0; i < 3; ++i) link(3 * half + i);
+    split_off.push_back(half);
+  }
+  return middle;
+}
+
+}  // namespace medial

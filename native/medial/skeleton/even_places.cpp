@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skeleton/even_places.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include "base/parallel.h"
+#include "skeleton/wire_end.h"
+
+namespace medial {
+namespace {
+
+constexpr int64_t kFew = 64;        // vertices that a thread takes at a time
+constexpr double kMostSlide = 0.7;  // of the target length that a rim moves at once
+constexpr double kAtEnd = 0.1;    // of the target length: a rim that moves less is at its end
+constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
+constexpr double kRimSlope = 0.2;         // of the steps along a rim
+constexpr double kRough = 0.1;          // mean deviation of steps, in target lengths
+constexpr int kMeans = 3, kMeansOfRoughness = 16;
+constexpr int kAlongRounds = 12;         // in which a step learns of those along the rim
+constexpr int kHalvingsToLast = 10;     // of the way to the last ball that touches two places
+
+}  // namespace
+
+EvenPlaces::EvenPlaces(EvenMesh& even, const SamplesOnFaces& samples,
+                       std::span<const Edge> generators, std::span<const Edge> wires,
+                       const Run& run)
+    : e_(even),
+      samples_(samples),
+      generators_(generators),
+      run_(run),
+      along_wire_(even.position.size(), -1) {
+  for (const auto& [a, b] : wires) {
+    if (e_.mesh.has_triangles(a)) along_wire_[a] = b;
+    if (e_.mesh.has_triangles(b)) along_wire_[b] = a;
+  }
+}
+
+// Returns the largest hole between the samples of the facets at a vertex.
+double EvenPlaces::hole_at(int32_t v) const {
+  double most = 0;
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    for (const int32_t s : generators_[e_.source[t]]) most = std::max(most, samples_.spacing(s));
+  });
+  return most;
+}
+
+// Returns the feet of a vertex on the walls of its triangles, nearest first; those that are seen in
+// one direction are one.
+std::vector<Foot> EvenPlaces::feet_of(int32_t v) const {
+  std::vector<int32_t> walls;
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    for (const int32_t s : generators_[e_.source[t]]) walls.push_back(samples_.triangle(s));
+  });
+  std::sort(walls.begin(), walls.end());
+  walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
+  if (walls.empty() || walls.front() < 0) return {};
+  std::vector<Foot> feet, distinct;
+  for (const int32_t t : walls) feet.push_back(samples_.faces().descend(t, e_.position[v]));
+  std::stable_sort(feet.begin(), feet.end(),
+                   [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
+  for (const Foot& foot : feet) {
+    const Vec3 away = normalized(e_.position[v] - foot.point);
+    const bool is_new = std::none_of(distinct.begin(), distinct.end(), [&](const Foot& other) {
+      return distance(normalized(e_.position[v] - other.point), away) <= kSameFoot;
+    });
+    if (is_new) distinct.push_back(foot);
+  }
+  return distinct;
+}
+
+// A vertex inside a sheet or on its rim has the nearest wall on each side of the sheet. On a seam
+// it has a wall for each sheet that meets there, and at a node as many as determine a place.
+Walls EvenPlaces::walls_of(int32_t v) const {
+  const auto feet = feet_of(v);
+  const auto& mesh = e_.mesh;
+  size_t most = kMostContacts;
+  if (mesh.stratum(v) == Stratum::sheet) most = 2;
+  if (mesh.stratum(v) == Stratum::curve) {
+    most = std::clamp<size_t>(static_cast<size_t>(mesh.uses(v, mesh.along_curve(v)[0])), 2, 3);
+  }
+  const Vec3 across = normal_at(e_, v);
+  Walls walls;
+  double side = 0;
+  for (const Foot& foot : feet) {
+    const double there = dot(e_.position[v] - foot.point, across);
+    if (most == 2 && walls.count == 1 && !(there * side < 0)) continue;
+    if (walls.count == 0) side = there;
+    if (walls.count < most) walls.add(foot.triangle);
+  }
+  return walls;
+}
+
+Touch EvenPlaces::ball_at(int32_t v) const {
+  const Touch ball = ball_of_walls(v);
+  const int32_t next = v < static_cast<int32_t>(along_wire_.size()) ? along_wire_[v] : -1;
+  if (next < 0 || !(ball.radius > 0)) return ball;
+  const Vec3 along = normalized(e_.position[next] - ball.position);
+  const Touch end = wire_end(samples_, hole_at(v), ball, along);
+  return end.radius > 0 ? end : ball;
+}
+
+Touch EvenPlaces::ball_of_walls(int32_t v) const {
+  const Walls walls = walls_of(v);
+  if (walls.count < 2) return {};
+  const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
+  return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, e_.position[v], most);
+}
+
+void EvenPlaces::place() {
+  const auto count = static_cast<int64_t>(e_.position.size());
+  found_.assign(e_.position.size(), {});
+  parallel_for(
+      count, {run_.threads, nullptr, nullptr},
+      [&](int64_t id) {
+        const auto v = static_cast<int32_t>(id);
+        if (e_.mesh.has_triangles(v) && e_.held[v] == kFree) found_[v] = ball_at(v);
+      },
+      kFew);
+  placing_.assign(e_.position.size(), Placing::voronoi);
+  radius_.assign(e_.position.size(), 0);
+  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+    if (!e_.mesh.has_triangles(v)) continue;
+    if (e_.held[v] != kFree) {
+      placing_[v] = e_.held[v] == kInCorner ? Placing::corner : Placing::crease;
+      continue;
+    }
+    const Touch& ball = found_[v];
+    const bool fits = ball.radius > 0 && distance(ball.position, e_.position[v]) < e_.target[v] &&
+                      keeps_sides(e_, v, ball.position);
+    placing_[v] = fits ? Placing::touching : Placing::refused;
+    if (getenv("DBG")) fprintf(stderr, "DBG %d %d %zu %d %d %d\n", (int)e_.mesh.stratum(v), e_.mesh.stratum(v)==Stratum::curve ? e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) : 0, walls_of(v).count, ball.radius > 0, ball.radius>0 && distance(ball.position, e_.position[v]) < e_.target[v], (int)fits);
+    if (!fits) continue;
+    move(e_, v, ball.position);
+    radius_[v] = ball.radius;
+  }
+}
+
+bool EvenPlaces::is_open_rim(int32_t v) const {
+  if (!e_.mesh.has_triangles(v) || e_.mesh.stratum(v) != Stratum::curve || e_.held[v] != kFree) {
+    return false;
+  }
+  return e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) == 1;
+}
+
+SmoothRim EvenPlaces::way_out(int32_t v) const {
+  if (placing_[v] == Placing::refused) return last_ball(v);
+  if (placing_[v] != Placing::touching || found_[v].walls.count != 2) return {};
+  return smooth_rim_of(samples_.faces(), hole_at(v), found_[v]);
+}
+
+// A rim that lies beyond the last ball that touches two places goes back to it. The ball is between
+// the vertex and a neighbour in the sheet, as at a fillet, all of whose balls have one centre.
+SmoothRim EvenPlaces::last_ball(int32_t v) const {
+  int32_t inner = -1;
+  e_.mesh.for_corners(v, [&](int32_t other) {
+    if (placing_[other] != Placing::touching || found_[other].walls.count != 2) return;
+    const auto away = [&](int32_t at) { return distance(e_.position[at], e_.position[v]); };
+    if (inner < 0 || away(other) < away(inner)) inner = other;
+  });
+  if (inner < 0) return {};
+  double low = 0, high = 1;
+  Vec3 last = e_.position[v];
+  for (int i = 0; i < kHalvingsToLast; ++i) {
+    const double share = 0.5 * (low + high);
+    const Vec3 start = (1 - share) * e_.position[inner] + share * e_.position[v];
+    const Touch ball = empty_ball(samples_, {start, hole_at(v)}, found_[inner].walls, start, 2);
+    (ball.radius > 0 ? low : high) = share;
+    if (ball.radius > 0) last = ball.position;
+  }
+  const Vec3 way = last - e_.position[v];
+  return low > 0 ? SmoothRim{-normalized(way), length(way)} : SmoothRim{};
+}
+
+// The squared sine of half the angle between the feet falls nearly linearly towards the end, where
+// it is 0. Rims go to where it is least, as far as two feet can be told apart.
+double EvenPlaces::step_of(int32_t v, const SmoothRim& way) const {
+  if (placing_[v] == Placing::refused) return -way.reach;
+  const double open = openness(found_[v].away);
+  return open > kRimOpenness ? way.reach * (1 - kRimOpenness / open) : 0;
+}
+
+// Returns means along rims, of a vertex and those beside it; what is not known is NaN, and takes on
+// the mean of what is known beside it.
+void EvenPlaces::take_means(std::span<const int32_t> rims, int rounds,
+                            std::vector<double>& values) const {
+  std::vector<double> means(values);
+  for (int round = 0; round < rounds; ++round) {
+    for (const int32_t v : rims) {
+      double sum = 0, weight = 0;
+      const auto add = [&](double value, double share) {
+        if (std::isnan(value)) return;
+        sum += share * value;
+        weight += share;
+      };
+      add(values[v], 0.5);
+      for (const int32_t other : e_.mesh.along_curve(v)) add(values[other], 0.25);
+      means[v] = weight > 0 ? sum / weight : values[v];
+    }
+    std::swap(values, means);
+  }
+}
+
+// Steps that the places of single vertices ask for are noise where the faces are rough. There rims
+// stay where they are smooth; elsewhere they take the means along the rim.
+void EvenPlaces::even_out(std::span<const int32_t> rims, std::vector<double>& step) const {
+  std::vector<double> raw(step), rough(step.size(), NAN);
+  take_means(rims, kMeans, step);
+  for (const int32_t v : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
+  take_means(rims, kMeansOfRoughness, rough);
+  for (const int32_t v : rims) {
+    if (!(rough[v] < kRough)) step[v] = 0;
+  }
+  for (int round = 0; round < kAlongRounds; ++round) {
+    for (const int32_t v : rims) {
+      for (const int32_t other : e_.mesh.along_curve(v)) {
+        const double apart = distance(e_.position[v], e_.position[other]);
+        if (!std::isnan(step[other])) step[v] = std::min(step[v], step[other] + kRimSlope * apart);
+      }
+    }
+  }
+}
+
+bool EvenPlaces::slide() {
+  std::vector<int32_t> rims;
+  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+    if (is_open_rim(v)) rims.push_back(v);
+  }
+  std::vector<SmoothRim> way(e_.position.size());
+  std::vector<double> step(e_.position.size(), NAN);
+  parallel_for(
+      static_cast<int64_t>(rims.size()), {run_.threads, nullptr, nullptr},
+      [&](int64_t i) {
+        const int32_t v = rims[i];
+        way[v] = way_out(v);
+        if (way[v].reach > 0) step[v] = step_of(v, way[v]);
+      },
+      kFew);
+  even_out(rims, step);
+  double most = 0;
+  for (const int32_t v : rims) {
+    const double limit = kMostSlide * e_.target[v], now = std::clamp(step[v], -limit, limit);
+    most = std::max(most, std::abs(now) / e_.target[v]);
+    const Vec3 place = e_.position[v] + now * outward_at(v);
+    if (now != 0 && keeps_sides(e_, v, place)) move(e_, v, place);
+  }
+  if (getenv("DBS")) { int z=0,f=0; for (int v: rims) z+= step[v]!=0, f+=way[v].reach>0; fprintf(stderr,"DBS rims %zu found %d sliding %d most %.3f\n",rims.size(),f,z,most);}
+  return most > kAtEnd;
+}
+
+// Returns the direction in which a sheet ends at a vertex of its rim: away from the third corners of
+// its triangles, across the rim.
+Vec3 EvenPlaces::outward_at(int32_t v) const {
+  const auto [a, b] = e_.mesh.along_curve(v);
+  const Vec3 along = normalized(e_.position[b] - e_.position[a]);
+  Vec3 inner;
+  e_.mesh.for_corners(v, [&](int32_t other) {
+    inner = inner + e_.position[other] - e_.position[v];
+  });
+  const Vec3 across = normal_at(e_, v);
+  inner = inner - dot(inner, along) * along - dot(inner, across) * across;
+  return -normalized(inner);
+}
+
+}  // namespace medial

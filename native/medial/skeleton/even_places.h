@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Moves the vertices of an even mesh to where balls touch the faces, and its smooth rims to where
+// the two places that a ball touches become one.
+#pragma once
+
+#include "remesh/even_mesh.h"
+#include "skeleton/crisp.h"
+#include "skeleton/smooth_rim.h"
+
+namespace medial {
+
+class EvenPlaces {
+ public:
+  // `generators` are per facet. The arguments must outlive this object.
+  EvenPlaces(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
+             std::span<const Edge> wires, const Run& run);
+
+  // Places all vertices of triangles. What turns a triangle over is refused.
+  void place();
+  // Moves the rims of smooth sheets towards their ends. Returns whether some moved far.
+  bool slide();
+
+  // (v) as of the last call of `place`; a vertex in no triangle is `voronoi`
+  const std::vector<Placing>& placing() const { return placing_; }
+  // (v) of the ball that touches the faces, where the placing is `touching` or more
+  const std::vector<double>& radius() const { return radius_; }
+
+ private:
+  double hole_at(int32_t v) const;
+  std::vector<Foot> feet_of(int32_t v) const;
+  Walls walls_of(int32_t v) const;
+  Touch ball_at(int32_t v) const;
+  Touch ball_of_walls(int32_t v) const;
+  bool is_open_rim(int32_t v) const;
+  SmoothRim way_out(int32_t v) const;
+  SmoothRim last_ball(int32_t v) const;
+  double step_of(int32_t v, const SmoothRim& way) const;
+  void take_means(std::span<const int32_t> rims, int rounds, std::vector<double>& values) const;
+  Vec3 outward_at(int32_t v) const;
+  void even_out(std::span<const int32_t> rims, std::vector<double>& step) const;
+
+  EvenMesh& e_;
+  const SamplesOnFaces& samples_;
+  std::span<const Edge> generators_;
+  const Run& run_;
+  std::vector<int32_t> along_wire_;  // (v) the other end of a wire that ends at a sheet; or -1
+  std::vector<Placing> placing_;
+  std::vector<double> radius_;
+  std::vector<Touch> found_;
+};
+
+}  // namespace medial

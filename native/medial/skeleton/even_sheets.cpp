@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skeleton/even_sheets.h"
+
+#include <numeric>
+
+#include "remesh/remesh.h"
+#include "remesh/target_length.h"
+#include "skeleton/even_creases.h"
+#include "skeleton/even_places.h"
+#include "skeleton/simplices.h"
+
+namespace medial {
+namespace {
+
+// Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
+// blue noise are about 1.65 holes apart.
+constexpr double kEdge = 3.3;       // the wanted length of an edge: twice the distance of samples
+constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
+constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
+constexpr double kOfArea = 2.5;     // the same in sides of a facet, which are long in rough scans
+constexpr double kOfWidth = 0.7;    // the same in half-widths of the sheet
+constexpr double kSlope = 0.5;      // by which lengths grow along the sheet at most
+constexpr double kChord = 1e-3;     // of the diagonal that a chord misses a curved sheet by, at most
+constexpr int kMovingRounds = 2;    // in which curves lose the zigzag of the samples
+constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
+
+class EvenSheets {
+ public:
+  EvenSheets(Level& level, const Hierarchy::Parts& h, bool crisp, const Run& run)
+      : level_(level),
+        h_(h),
+        samples_(crisp ? h.on_faces.get() : nullptr),
+        run_{run.threads, nullptr, nullptr}, progress_(run.progress) {}
+
+  void make() {
+    for (size_t f = 0; f < level_.facet_of.size(); ++f) {
+      generators_.push_back(h_.complex.generators[level_.facet_of[f]]);
+    }
+    EvenMesh even = start();
+    const SamplesOnFaces* samples = samples_;
+    if (samples) hold_on_creases(even, *samples, generators_, hole_, radius_, run_);
+    choose_targets(even);
+    RemeshOptions options{true, kChord * h_.complex.diagonal, [&](const Vec3& place) {
+                            return samples->creases().nearer(place, HUGE_VAL)->point;
+                          }};
+    for (int round = 0; round < kRounds; ++round) {
+      options.moves_curves = round < kMovingRounds;
+      one_round(even, options, 0.4 * round / kRounds);
+    }
+    if (samples) {
+      EvenPlaces places(even, *samples, generators_, level_.wires, run_);
+      settle(even, places, options);
+      write(even, &places);
+    } else {
+      write(even, nullptr);
+    }
+  }
+
+ private:
+  void one_round(EvenMesh& even, const RemeshOptions& options, double share) {
+    advance(progress_, share);
+    throw_if_cancelled(progress_);
+    remesh(even, options, run_);
+  }
+
+  EvenMesh start() {
+    Simplices simplices = simplices_of(level_);
+    const size_t old = level_.vertices.size(), all = old + simplices.centres.size();
+    std::vector<int32_t> origin(all);
+    std::iota(origin.begin(), origin.end(), 0);
+    std::vector<Vec3> position(level_.vertices.begin(), level_.vertices.end());
+    radius_.assign(level_.radius.begin(), level_.radius.end());
+    for (size_t i = 0; i < simplices.centres.size(); ++i) {
+      const int32_t f = simplices.centres[i];
+      const auto begin = level_.face_offsets[f], end = level_.face_offsets[f + 1];
+      Vec3 sum;
+      for (int32_t c = begin; c < end; ++c) sum = sum + position[level_.face_vertices[c]];
+      origin[old + i] = level_.face_vertices[begin];
+      position.push_back((1.0 / (end - begin)) * sum);
+      radius_.push_back(radius_[origin[old + i]]);
+    }
+    std::vector<Vec3> normal;
+    for (const int32_t f : simplices.source) {
+      const auto& [p, q] = generators_[f];
+      normal.push_back(normalized(h_.samples[q] - h_.samples[p]));
+    }
+    std::vector<uint8_t> is_node(all, 0);
+    for (const int32_t v : level_.points) is_node[v] = 1;
+    SheetMesh mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
+                   is_node);
+    EvenMesh even{std::move(mesh),       std::move(position),
+                  std::vector<double>(all), std::move(origin),
+                  std::vector<uint8_t>(all, kFree), std::move(simplices.source), std::move(normal)};
+    find_holes(even);
+    return even;
+  }
+
+  // Finds the largest hole between the samples at each vertex, and the mean area of its facets.
+  void find_holes(const EvenMesh& even) {
+    std::vector<double> area(generators_.size(), 0);
+    for (int32_t t = 0; t < even.mesh.triangles(); ++t) {
+      const auto& [a, b, c] = even.mesh.triangle(t);
+      area[even.source[t]] += 0.5 * length(cross(even.position[b] - even.position[a],
+                                                 even.position[c] - even.position[a]));
+    }
+    hole_.assign(even.position.size(), 0);
+    facet_area_.assign(even.position.size(), 0);
+    parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
+      int count = 0;
+      double sum = 0;
+      even.mesh.for_triangles(static_cast<int32_t>(v), [&](int32_t t) {
+        const int32_t f = even.source[t];
+        for (const int32_t s : generators_[f]) hole_[v] = std::max(hole_[v], h_.spacing[s]);
+        sum += area[f];
+        ++count;
+      });
+      facet_area_[v] = count > 0 ? sum / count : 0;
+    });
+  }
+
+  void choose_targets(EvenMesh& even) {
+    const auto width = half_widths(even.mesh, even.position);
+    parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
+      const double least = std::max(kLeastEdge * hole_[v], 0.4 * kOfArea * std::sqrt(facet_area_[v]));
+      const double most = std::max(kEdge * hole_[v], kOfArea * std::sqrt(facet_area_[v]));
+      even.target[v] = std::clamp(kOfWidth * width[v], least, most);
+    });
+    spread_least(even.mesh, even.position, kSlope, even.target);
+  }
+
+  void settle(EvenMesh& even, EvenPlaces& places, RemeshOptions& options) {
+    places.place();
+    follow_curvature(even);
+    for (int round = 0; round < kRoundsAfterPlaces; ++round) {
+      one_round(even, options, 0.4 + 0.1 * round);
+    }
+    places.place();
+    options.moves_curves = true;
+    for (int i = 0; i < kSlides; ++i) {
+      const bool far = places.slide();
+      places.place();
+      if (!far) break;
+      if (i + 1 == kSlides) break;
+      one_round(even, options, 0.6 + 0.3 * i / kSlides);
+      places.place();
+    }
+  }
+
+  // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of their
+  // height times this angle.
+  void follow_curvature(EvenMesh& even) {
+    const SheetMesh& mesh = even.mesh;
+    const double chord = kChord * h_.complex.diagonal;
+    for (const auto& [a, b] : mesh.edges()) {
+      const auto& two = mesh.triangles_at(a, b);
+      if (two.size() != 2) continue;
+      const int32_t c = mesh.third_corner(two[0], a, b), d = mesh.third_corner(two[1], a, b);
+      const double turn = length(cross(even.normal[two[0]], even.normal[two[1]]));
+      const double miss = distance(even.position[c], even.position[d]) * turn / 16;
+      if (!(miss > chord)) continue;
+      const double shorter = std::sqrt(chord / miss);
+      for (const int32_t v : {a, b, c, d}) {
+        const double least = kLeastOfCurved * hole_[even.origin[v]];
+        const double wanted = shorter * distance(even.position[a], even.position[b]);
+        even.target[v] = std::min(even.target[v], std::max(least, wanted));
+      }
+    }
+    spread_least(mesh, even.position, kSlope, even.target);
+  }
+
+  void write(const EvenMesh& even, const EvenPlaces* places);
+
+  Level& level_;
+  const Hierarchy::Parts& h_;
+  const SamplesOnFaces* samples_;  // null if no faces give places
+  Run run_;
+  Progress* progress_;
+  std::vector<Edge> generators_;  // per facet of the level: samples
+  std::vector<double> hole_, radius_, facet_area_;  // per vertex at the start
+};
+
+template <typename T>
+Column<T> rows_of(const Column<T>& values, std::span<const int32_t> rows) {
+  Column<T> found;
+  found.reserve(rows.size());
+  for (const int32_t row : rows) found.push_back(values[row]);
+  return found;
+}
+
+// Writes triangles in the order of their facets, and vertices in the order in which triangles,
+// wires and points first use them.
+void EvenSheets::write(const EvenMesh& even, const EvenPlaces* places) {
+  std::vector<int32_t> rows;
+  for (int32_t t = 0; t < even.mesh.triangles(); ++t) {
+    if (!even.mesh.is_gone(t)) rows.push_back(t);
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](int32_t a, int32_t b) { return even.source[a] < even.source[b]; });
+  std::vector<int32_t> number(even.position.size(), -1), vertices, source;
+  const auto renumbered = [&](int32_t v) {
+    if (number[v] < 0) {
+      number[v] = static_cast<int32_t>(vertices.size());
+      vertices.push_back(v);
+    }
+    return number[v];
+  };
+  level_.face_offsets = {0};
+  level_.face_vertices.clear();
+  for (const int32_t t : rows) {
+    Triangle corners = even.mesh.triangle(t);
+    const auto& [p, q] = generators_[even.source[t]];
+    const Vec3 across = h_.samples[q] - h_.samples[p];
+    if (dot(even.normal[t], across) < 0) std::swap(corners[1], corners[2]);
+    for (int32_t& v : corners) v = renumbered(v);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    for (const int32_t v : corners) level_.face_vertices.push_back(v);
+    level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
+    source.push_back(even.source[t]);
+  }
+  for (Edge& wire : level_.wires) {
+    for (int32_t& v : wire) v = renumbered(v);
+  }
+  for (int32_t& v : level_.points) v = renumbered(v);
+  level_.generators = rows_of(level_.generators, source);
+  level_.facet_of = rows_of(level_.facet_of, source);
+  level_.theta = rows_of(level_.theta, source);
+  level_.rho = rows_of(level_.rho, source);
+  level_.sheet = rows_of(level_.sheet, source);
+  level_.erosion = rows_of(level_.erosion, source);
+  std::vector<int32_t> origin;
+  for (const int32_t v : vertices) origin.push_back(even.origin[v]);
+  level_.vertex_of = rows_of(level_.vertex_of, origin);
+  level_.exact = rows_of(level_.exact, origin);
+  level_.exact_radius = rows_of(level_.exact_radius, origin);
+  const size_t count = vertices.size();
+  level_.vertices.resize(count);
+  level_.radius.resize(count);
+  level_.place.assign(count, Placing::voronoi);
+  parallel_for(static_cast<int64_t>(count), run_, [&](int64_t i) {
+    const int32_t v = vertices[i];
+    level_.vertices[i] = even.position[v];
+    if (places) level_.place[i] = places->placing()[v];
+    if (level_.place[i] >= Placing::touching) {
+      level_.radius[i] = places->radius()[v];
+    } else if (level_.vertices[i] == level_.exact[i]) {
+      level_.radius[i] = level_.exact_radius[i];
+    } else {
+      level_.radius[i] = h_.samples.nearest(even.position[v]).distance;
+    }
+  });
+}
+
+}  // namespace
+
+void make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp, const Run& run) {
+  if (!level.facet_of.empty()) EvenSheets(level, hierarchy, crisp, run).make();
+}
+
+}  // namespace medial

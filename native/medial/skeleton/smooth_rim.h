@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the end of a smooth sheet, where the two places that a ball touches become one.
+#pragma once
+
+#include "skeleton/empty_ball.h"
+
+namespace medial {
+
+// Tells how far, and in which direction, a smooth rim is; 0 if there is none.
+struct SmoothRim {
+  Vec3 outward;
+  double reach = 0;
+};
+
+// Returns how far a smooth rim is from a ball that touches two places, and in which direction.
+SmoothRim smooth_rim_of(const Faces& faces, double hole, const Touch& inner);
+
+}  // namespace medial
