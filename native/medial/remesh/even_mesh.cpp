@@ -12,6 +12,8 @@ constexpr double kMostTurn = 0.342;
 // A triangle lower than this share of its longest edge is a needle, whose normal is rounding and
 // noise of the samples.
 constexpr double kNeedle = 0.02;
+// The cosine of the angle by which a sheet may turn at an edge: 120 degrees.
+constexpr double kFold = -0.5;
 
 using Places = std::array<Vec3, 3>;
 
@@ -32,7 +34,58 @@ Places places_of(const EvenMesh& even, const Triangle& t) {
   return {even.position[t[0]], even.position[t[1]], even.position[t[2]]};
 }
 
+// Returns 1 if two triangles go along their common edge in opposite directions, as triangles do
+// that are turned alike; else -1.
+double alike(const Triangle& s, const Triangle& t, int32_t a, int32_t b) {
+  const auto goes_on = [a, b](const Triangle& triangle) {
+    return triangle[(corner_of(triangle, a) + 1) % 3] == b;
+  };
+  return goes_on(s) != goes_on(t) ? 1 : -1;
+}
+
+// The normals that triangles would have if one of their corners moved.
+class Moved {
+ public:
+  Moved(const EvenMesh& even, int32_t v, const Vec3& place) : e_(even), v_(v), place_(place) {}
+
+  Vec3 normal(int32_t t) const {
+    const Triangle& corners = e_.mesh.triangle(t);
+    if (corners[0] != v_ && corners[1] != v_ && corners[2] != v_) return e_.normal[t];
+    Places places = places_of(e_, corners);
+    places[corner_of(corners, v_)] = place_;
+    const Plane plane = plane_of(places);
+    return plane.height < kNeedle ? e_.normal[t] : plane.normal;
+  }
+
+  // Returns whether the sheet would fold at an edge of a triangle at which it does not yet.
+  bool folds(int32_t t, const Vec3& normal_of_t, int32_t a, int32_t b) const {
+    const auto& two = e_.mesh.triangles_at(a, b);
+    if (two.size() != 2) return false;
+    const int32_t other = two[0] == t ? two[1] : two[0];
+    const double sign = alike(e_.mesh.triangle(t), e_.mesh.triangle(other), a, b);
+    return sign * dot(normal_of_t, normal(other)) < kFold &&
+           sign * dot(e_.normal[t], e_.normal[other]) >= kFold;
+  }
+
+ private:
+  const EvenMesh& e_;
+  int32_t v_;
+  const Vec3& place_;
+};
+
 }  // namespace
+
+bool folds(const EvenMesh& even, int32_t v, const Vec3& place) {
+  const Moved moved(even, v, place);
+  bool found = false;
+  even.mesh.for_triangles(v, [&](int32_t t) {
+    if (found) return;
+    const Vec3 normal = moved.normal(t);
+    const Triangle& c = even.mesh.triangle(t);
+    for (int i = 0; i < 3; ++i) found = found || moved.folds(t, normal, c[i], c[(i + 1) % 3]);
+  });
+  return found;
+}
 
 bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place) {
   const Triangle& corners = even.mesh.triangle(triangle);
@@ -47,7 +100,7 @@ bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Ve
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place) {
   bool keeps = true;
   even.mesh.for_triangles(v, [&](int32_t t) { keeps = keeps && keeps_side(even, t, v, place); });
-  return keeps;
+  return keeps && !folds(even, v, place);
 }
 
 void settle_normal(EvenMesh& even, int32_t triangle) {

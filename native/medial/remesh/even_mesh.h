@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/vec3.h"
-#include "remesh/sheet_mesh.h"
+#include "remesh/sheet_complex.h"
 
 namespace medial {
 
@@ -15,7 +15,7 @@ inline constexpr uint8_t kFree = 0, kOnLine = 1, kInCorner = 2;
 
 // A mesh, and what belongs to its vertices and triangles.
 struct EvenMesh {
-  SheetMesh mesh;
+  SheetComplex mesh;
   std::vector<Vec3> position;   // (v)
   std::vector<double> target;   // (v) wanted length of the edges there
   std::vector<int32_t> origin;  // (v) the vertex of the input that it stands for
@@ -30,12 +30,15 @@ struct EvenMesh {
 
 // Returns whether a triangle would keep its side if one of its corners moved to a place.
 bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place);
-// Returns whether all triangles at a vertex would.
+// Returns whether sheets would turn by more than 120 degrees at an edge, at which they do not yet,
+// of a triangle at a vertex, if this moved to a place.
+bool folds(const EvenMesh& even, int32_t v, const Vec3& place);
+// Returns whether all triangles at a vertex would keep their side, and no sheet would fold.
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
 // Takes over the normal of a triangle whose corners have moved.
 void settle_normal(EvenMesh& even, int32_t triangle);
-// Returns the normals of the two triangles at an edge as they would be after SheetMesh::flip;
+// Returns the normals of the two triangles at an edge as they would be after SheetComplex::flip;
 // nothing if one of them would be turned over.
 std::optional<std::array<Vec3, 2>> normals_of_flip(const EvenMesh& even, int32_t a, int32_t b);
 // Returns the mean direction across the sheet at a vertex, whose triangles may be turned either

@@ -110,7 +110,7 @@ class Remesher {
         fits = fits && distance(e_.position[other], place) < kLong * target(other, to);
       }
     });
-    if (!fits) return false;
+    if (!fits || folds(e_, from, place)) return false;
     moved_.clear();
     mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
     mesh_.collapse(from, to);
@@ -205,7 +205,7 @@ class Remesher {
   }
 
   EvenMesh& e_;
-  SheetMesh& mesh_;
+  SheetComplex& mesh_;
   const RemeshOptions& options_;
   const Run& run_;
   std::vector<int32_t> moved_, split_off_;

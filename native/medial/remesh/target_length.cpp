@@ -23,7 +23,7 @@ struct Reached {
 // Does the work of spread_least; calls found(vertex, from) for each vertex whose value is lowered
 // by a neighbour, in the order of the values.
 template <typename Found>
-void spread(const SheetMesh& mesh, std::span<const Vec3> position, double slope,
+void spread(const SheetComplex& mesh, std::span<const Vec3> position, double slope,
             std::vector<double>& values, const Found& found) {
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
   for (int32_t v = 0; v < mesh.vertices(); ++v) {
@@ -44,7 +44,7 @@ void spread(const SheetMesh& mesh, std::span<const Vec3> position, double slope,
 }
 
 // Raises the values of vertices to the largest one beside them.
-void raise_to_neighbours(const SheetMesh& mesh, std::vector<double>& values) {
+void raise_to_neighbours(const SheetComplex& mesh, std::vector<double>& values) {
   std::vector<double> raised(values);
   for (int32_t v = 0; v < mesh.vertices(); ++v) {
     mesh.for_corners(v, [&](int32_t other) { raised[v] = std::max(raised[v], values[other]); });
@@ -54,12 +54,12 @@ void raise_to_neighbours(const SheetMesh& mesh, std::vector<double>& values) {
 
 }  // namespace
 
-void spread_least(const SheetMesh& mesh, std::span<const Vec3> position, double slope,
+void spread_least(const SheetComplex& mesh, std::span<const Vec3> position, double slope,
                   std::vector<double>& values) {
   spread(mesh, position, slope, values, [](int32_t, int32_t) {});
 }
 
-std::vector<double> half_widths(const SheetMesh& mesh, std::span<const Vec3> position) {
+std::vector<double> half_widths(const SheetComplex& mesh, std::span<const Vec3> position) {
   std::vector<double> distance(position.size(), HUGE_VAL);
   std::vector<int32_t> before(position.size(), -1), order;
   for (int32_t v = 0; v < mesh.vertices(); ++v) {

@@ -13,7 +13,7 @@ constexpr double kNearlyEqual =
 
 class BallFinder {
  public:
-  BallFinder(const SamplesOnFaces& samples, const Near& near)
+  BallFinder(const SamplesOnFaces& samples, const NearPlace& near)
       : samples_(samples), near_(near), tolerance_(kExact * near.hole) {}
 
   // A wall that the ball sticks out of is added. If there are as many as it may touch, or if it is
@@ -99,13 +99,13 @@ class BallFinder {
   }
 
   const SamplesOnFaces& samples_;
-  const Near& near_;
+  const NearPlace& near_;
   double tolerance_;
 };
 
 }  // namespace
 
-Touch empty_ball(const SamplesOnFaces& samples, const Near& near, const Walls& walls,
+Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
                  const Vec3& start, size_t most) {
   return BallFinder(samples, near).find(walls, start, most);
 }

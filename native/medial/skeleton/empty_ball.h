@@ -37,14 +37,14 @@ inline double openness(const std::array<Vec3, kMostContacts>& away) {
 inline constexpr double kSameFoot = 0.08;
 
 // A place, and the largest hole between the samples there, in which lengths are measured.
-struct Near {
+struct NearPlace {
   Vec3 place;
   double hole;
 };
 
 // Finds the ball that touches some walls near a place; the search begins at `start`. A wall that it
 // sticks out of is added, up to a number of walls.
-Touch empty_ball(const SamplesOnFaces& samples, const Near& near, const Walls& walls,
+Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
                  const Vec3& start, size_t most = kMostContacts);
 // Finds a ball that touches some walls, although others are as near but for what smooth faces are
 // off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/even_places.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include "base/parallel.h"
 #include "skeleton/wire_end.h"
 
@@ -107,19 +105,35 @@ Touch EvenPlaces::ball_of_walls(int32_t v) const {
 }
 
 void EvenPlaces::place() {
-  const auto count = static_cast<int64_t>(e_.position.size());
-  found_.assign(e_.position.size(), {});
+  std::vector<int32_t> all;
+  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+    if (e_.mesh.has_triangles(v)) all.push_back(v);
+  }
+  place(all);
+}
+
+void EvenPlaces::place_rims() {
+  std::vector<int32_t> near = open_rims();
+  for (size_t i = 0, rims = near.size(); i < rims; ++i) {
+    e_.mesh.for_corners(near[i], [&](int32_t other) { near.push_back(other); });
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  place(near);
+}
+
+void EvenPlaces::place(std::span<const int32_t> vertices) {
+  found_.resize(e_.position.size());
+  placing_.resize(e_.position.size(), Placing::voronoi);
+  radius_.resize(e_.position.size(), 0);
   parallel_for(
-      count, {run_.threads, nullptr, nullptr},
-      [&](int64_t id) {
-        const auto v = static_cast<int32_t>(id);
-        if (e_.mesh.has_triangles(v) && e_.held[v] == kFree) found_[v] = ball_at(v);
+      static_cast<int64_t>(vertices.size()), {run_.threads, nullptr, nullptr},
+      [&](int64_t i) {
+        const int32_t v = vertices[i];
+        found_[v] = e_.held[v] == kFree ? ball_at(v) : Touch{};
       },
       kFew);
-  placing_.assign(e_.position.size(), Placing::voronoi);
-  radius_.assign(e_.position.size(), 0);
-  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-    if (!e_.mesh.has_triangles(v)) continue;
+  for (const int32_t v : vertices) {
     if (e_.held[v] != kFree) {
       placing_[v] = e_.held[v] == kInCorner ? Placing::corner : Placing::crease;
       continue;
@@ -128,11 +142,18 @@ void EvenPlaces::place() {
     const bool fits = ball.radius > 0 && distance(ball.position, e_.position[v]) < e_.target[v] &&
                       keeps_sides(e_, v, ball.position);
     placing_[v] = fits ? Placing::touching : Placing::refused;
-    if (getenv("DBG")) fprintf(stderr, "DBG %d %d %zu %d %d %d\n", (int)e_.mesh.stratum(v), e_.mesh.stratum(v)==Stratum::curve ? e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) : 0, walls_of(v).count, ball.radius > 0, ball.radius>0 && distance(ball.position, e_.position[v]) < e_.target[v], (int)fits);
     if (!fits) continue;
     move(e_, v, ball.position);
     radius_[v] = ball.radius;
   }
+}
+
+std::vector<int32_t> EvenPlaces::open_rims() const {
+  std::vector<int32_t> rims;
+  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+    if (is_open_rim(v)) rims.push_back(v);
+  }
+  return rims;
 }
 
 bool EvenPlaces::is_open_rim(int32_t v) const {
@@ -221,10 +242,7 @@ void EvenPlaces::even_out(std::span<const int32_t> rims, std::vector<double>& st
 }
 
 bool EvenPlaces::slide() {
-  std::vector<int32_t> rims;
-  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-    if (is_open_rim(v)) rims.push_back(v);
-  }
+  const std::vector<int32_t> rims = open_rims();
   std::vector<SmoothRim> way(e_.position.size());
   std::vector<double> step(e_.position.size(), NAN);
   parallel_for(
@@ -243,7 +261,6 @@ bool EvenPlaces::slide() {
     const Vec3 place = e_.position[v] + now * outward_at(v);
     if (now != 0 && keeps_sides(e_, v, place)) move(e_, v, place);
   }
-  if (getenv("DBS")) { int z=0,f=0; for (int v: rims) z+= step[v]!=0, f+=way[v].reach>0; fprintf(stderr,"DBS rims %zu found %d sliding %d most %.3f\n",rims.size(),f,z,most);}
   return most > kAtEnd;
 }
 

@@ -17,8 +17,11 @@ class EvenPlaces {
 
   // Places all vertices of triangles. What turns a triangle over is refused.
   void place();
-  // Moves the rims of smooth sheets towards their ends. Returns whether some moved far.
+  // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and
+  // what is beside them must be placed.
   bool slide();
+  // Places rims that end on no crease, and what is beside them.
+  void place_rims();
 
   // (v) as of the last call of `place`; a vertex in no triangle is `voronoi`
   const std::vector<Placing>& placing() const { return placing_; }
@@ -26,6 +29,8 @@ class EvenPlaces {
   const std::vector<double>& radius() const { return radius_; }
 
  private:
+  void place(std::span<const int32_t> vertices);
+  std::vector<int32_t> open_rims() const;
   double hole_at(int32_t v) const;
   std::vector<Foot> feet_of(int32_t v) const;
   Walls walls_of(int32_t v) const;

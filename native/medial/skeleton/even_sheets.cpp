@@ -86,7 +86,7 @@ class EvenSheets {
     }
     std::vector<uint8_t> is_node(all, 0);
     for (const int32_t v : level_.points) is_node[v] = 1;
-    SheetMesh mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
+    SheetComplex mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
                    is_node);
     EvenMesh even{std::move(mesh),       std::move(position),
                   std::vector<double>(all), std::move(origin),
@@ -135,21 +135,20 @@ class EvenSheets {
       one_round(even, options, 0.4 + 0.1 * round);
     }
     places.place();
+    // Rims lose what is uneven in their steps, and what that took off them comes back.
     options.moves_curves = true;
-    for (int i = 0; i < kSlides; ++i) {
-      const bool far = places.slide();
-      places.place();
-      if (!far) break;
-      if (i + 1 == kSlides) break;
+    for (int i = 0; places.slide() && i < kSlides; ++i) {
+      places.place_rims();
       one_round(even, options, 0.6 + 0.3 * i / kSlides);
-      places.place();
+      places.place_rims();
     }
+    places.place();
   }
 
   // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of their
   // height times this angle.
   void follow_curvature(EvenMesh& even) {
-    const SheetMesh& mesh = even.mesh;
+    const SheetComplex& mesh = even.mesh;
     const double chord = kChord * h_.complex.diagonal;
     for (const auto& [a, b] : mesh.edges()) {
       const auto& two = mesh.triangles_at(a, b);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "remesh/sheet_mesh.h"
+#include "remesh/sheet_complex.h"
 
 #include <algorithm>
 
 namespace medial {
 
-SheetMesh::SheetMesh(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
+SheetComplex::SheetComplex(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
                      std::span<const uint8_t> is_node)
     : triangles_(std::move(triangles)),
       first_(vertices, -1),
@@ -26,7 +26,7 @@ SheetMesh::SheetMesh(int32_t vertices, std::vector<Triangle> triangles, std::spa
   }
 }
 
-void SheetMesh::link(int32_t corner) {
+void SheetComplex::link(int32_t corner) {
   int32_t& first = first_[triangles_[corner / 3][corner % 3]];
   next_[corner] = first;
   before_[corner] = -1;
@@ -34,26 +34,26 @@ void SheetMesh::link(int32_t corner) {
   first = corner;
 }
 
-void SheetMesh::unlink(int32_t corner) {
+void SheetComplex::unlink(int32_t corner) {
   const int32_t next = next_[corner], before = before_[corner];
   if (next >= 0) before_[next] = before;
   (before >= 0 ? next_[before] : first_[triangles_[corner / 3][corner % 3]]) = next;
 }
 
-void SheetMesh::replace_corner(int32_t t, int32_t from, int32_t to) {
+void SheetComplex::replace_corner(int32_t t, int32_t from, int32_t to) {
   const int32_t corner = 3 * t + corner_of(triangles_[t], from);
   unlink(corner);
   triangles_[t][corner % 3] = to;
   link(corner);
 }
 
-int SheetMesh::uses(int32_t a, int32_t b) const {
+int SheetComplex::uses(int32_t a, int32_t b) const {
   int count = 0;
   for_corners(a, [&](int32_t other) { count += other == b; });
   return count;
 }
 
-const std::vector<int32_t>& SheetMesh::triangles_at(int32_t a, int32_t b) const {
+const std::vector<int32_t>& SheetComplex::triangles_at(int32_t a, int32_t b) const {
   at_edge_.clear();
   for_triangles(a, [&](int32_t t) {
     const Edge others = link_of(triangles_[t], a);
@@ -62,7 +62,7 @@ const std::vector<int32_t>& SheetMesh::triangles_at(int32_t a, int32_t b) const 
   return at_edge_;
 }
 
-std::vector<int32_t> SheetMesh::curve_neighbours(int32_t v) const {
+std::vector<int32_t> SheetComplex::curve_neighbours(int32_t v) const {
   std::vector<int32_t> all, found;
   for_corners(v, [&](int32_t other) { all.push_back(other); });
   std::sort(all.begin(), all.end());
@@ -73,12 +73,12 @@ std::vector<int32_t> SheetMesh::curve_neighbours(int32_t v) const {
   return found;
 }
 
-Edge SheetMesh::along_curve(int32_t v) const {
+Edge SheetComplex::along_curve(int32_t v) const {
   const auto found = curve_neighbours(v);
   return {found[0], found[1]};
 }
 
-Stratum SheetMesh::find_stratum(int32_t v) const {
+Stratum SheetComplex::find_stratum(int32_t v) const {
   if (!has_triangles(v)) return Stratum::node;
   const auto ends = curve_neighbours(v);
   if (ends.empty()) return link_is_circle(v) ? Stratum::sheet : Stratum::node;
@@ -107,7 +107,7 @@ int go_along(std::vector<Edge>& edges, int32_t at, int32_t to) {
 
 }  // namespace
 
-bool SheetMesh::link_is_circle(int32_t v) const {
+bool SheetComplex::link_is_circle(int32_t v) const {
   std::vector<Edge> edges;
   for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
   const int32_t start = edges.front()[0];
@@ -115,7 +115,7 @@ bool SheetMesh::link_is_circle(int32_t v) const {
   return edges.empty();
 }
 
-bool SheetMesh::link_is_arcs(int32_t v, int32_t from, int32_t to) const {
+bool SheetComplex::link_is_arcs(int32_t v, int32_t from, int32_t to) const {
   std::vector<Edge> edges;
   for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
   const auto is_at = [](int32_t vertex) {
@@ -130,7 +130,7 @@ bool SheetMesh::link_is_arcs(int32_t v, int32_t from, int32_t to) const {
   return edges.empty();
 }
 
-std::vector<Edge> SheetMesh::edges() const {
+std::vector<Edge> SheetComplex::edges() const {
   std::vector<Edge> all;
   std::vector<int32_t> above;
   all.reserve(3 * triangles_.size() / 2);
@@ -146,11 +146,11 @@ std::vector<Edge> SheetMesh::edges() const {
   return all;
 }
 
-bool SheetMesh::is_wired(int32_t a, int32_t b) const {
+bool SheetComplex::is_wired(int32_t a, int32_t b) const {
   return std::binary_search(wires_.begin(), wires_.end(), Edge{a, b});
 }
 
-bool SheetMesh::has_triangle(int32_t a, int32_t b, int32_t c) const {
+bool SheetComplex::has_triangle(int32_t a, int32_t b, int32_t c) const {
   bool found = false;
   for_triangles(a, [&](int32_t t) {
     const Edge e = link_of(triangles_[t], a);
@@ -163,7 +163,7 @@ bool SheetMesh::has_triangle(int32_t a, int32_t b, int32_t c) const {
 // edge from there to the other end. Where both are parts of curves, the triangle between them was a
 // whole sheet, smaller than the edges shall be, and the two curves become one, but for the last
 // triangle between three rims.
-SheetMesh::Merge SheetMesh::merge_of(int32_t from, int32_t to) const {
+SheetComplex::Merge SheetComplex::merge_of(int32_t from, int32_t to) const {
   Merge found = Merge::keeps_curves;
   const std::vector<int32_t> at_edge = triangles_at(from, to);
   for (const int32_t t : at_edge) {
@@ -179,7 +179,7 @@ SheetMesh::Merge SheetMesh::merge_of(int32_t from, int32_t to) const {
 // The link condition: the links of the two ends have in common what the link of the edge is, which
 // is the third corners of the triangles at it. For any complex the collapse of such an edge keeps
 // the homotopy type (Dey, Edelsbrunner, Guha and Nekhayev 1999; Attali, Lieutier and Salinas 2011).
-bool SheetMesh::can_collapse(int32_t from, int32_t to) const {
+bool SheetComplex::can_collapse(int32_t from, int32_t to) const {
   if (stays_[from] || stratum_[from] > stratum_[to]) return false;
   const int at_edge = uses(from, to);
   if (at_edge == 0 || (stratum_[from] != Stratum::sheet && at_edge == 2)) return false;
@@ -203,7 +203,7 @@ bool SheetMesh::can_collapse(int32_t from, int32_t to) const {
   return !closes && (stratum_[from] == Stratum::sheet || merge_of(from, to) != Merge::loses_triangle);
 }
 
-void SheetMesh::collapse(int32_t from, int32_t to) {
+void SheetComplex::collapse(int32_t from, int32_t to) {
   const bool joins = stratum_[from] != Stratum::sheet && merge_of(from, to) == Merge::joins_curves;
   const std::vector<int32_t> at_edge = triangles_at(from, to);
   for (const int32_t t : at_edge) {
@@ -219,21 +219,21 @@ void SheetMesh::collapse(int32_t from, int32_t to) {
   }
 }
 
-bool SheetMesh::can_flip(int32_t a, int32_t b) const {
+bool SheetComplex::can_flip(int32_t a, int32_t b) const {
   const auto& two = triangles_at(a, b);
   if (two.size() != 2) return false;
   const int32_t c = third_corner(two[0], a, b), d = third_corner(two[1], a, b);
   return uses(c, d) == 0 && !is_wired(c, d);
 }
 
-void SheetMesh::flip(int32_t a, int32_t b) {
+void SheetComplex::flip(int32_t a, int32_t b) {
   const int32_t s = triangles_at(a, b)[0], t = at_edge_[1];
   const int32_t c = third_corner(s, a, b), d = third_corner(t, a, b);
   replace_corner(s, b, d);
   replace_corner(t, a, c);
 }
 
-int32_t SheetMesh::split(int32_t a, int32_t b, std::vector<int32_t>& split_off) {
+int32_t SheetComplex::split(int32_t a, int32_t b, std::vector<int32_t>& split_off) {
   const auto middle = static_cast<int32_t>(first_.size());
   const std::vector<int32_t> at_edge = triangles_at(a, b);
   first_.push_back(-1);

@@ -18,11 +18,11 @@ namespace medial {
 enum class Stratum : uint8_t { sheet, curve, node };
 
 // `triangles_at`, `can_collapse` and what calls them may not be called from several threads at once.
-class SheetMesh {
+class SheetComplex {
  public:
   // No two triangles have the same corners. No wire has the same ends as another or as an edge of a
   // triangle.
-  SheetMesh(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
+  SheetComplex(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
             std::span<const uint8_t> is_node);
 
   int32_t vertices() const { return static_cast<int32_t>(first_.size()); }
