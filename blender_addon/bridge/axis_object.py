@@ -18,6 +18,7 @@ from ..core.settings import (
     Criteria,
     Form,
     Look,
+    Mesh,
     Settings,
     Side,
 )
@@ -61,12 +62,12 @@ BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
 TOPOLOGY = "ma_topology"  # the same in a sentence
 PLACES = "ma_places"  # a sentence: where balls end; only of clean forms and curves
 REFUSED = "ma_refused"  # vertices at which no ball fits the faces
-MESH = "ma_mesh"  # a sentence: the connected parts of the source, and how they were read
+MESH = "ma_source_mesh"  # a sentence: the connected parts of the source, and how they were read
 TURNED = "ma_turned"  # triangles of the source that looked inward and were read the other way round
 # The whole axis, its own master.
 ALL = Look(within=0.0, crumbs=0.0)
 # The values of options that earlier versions did not have.
-_EARLIER = {"form": Form.PUBLISHED, "crisp": False}
+_EARLIER = {"form": Form.PUBLISHED, "crisp": False, "mesh": Mesh.VORONOI}
 
 
 RESULT = Product(SUFFIX, (ANALYSIS,), material=radius_material)
@@ -149,7 +150,7 @@ def radius_range(result: bpy.types.Object) -> tuple[float, float]:
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
-    """The settings that a result was made with; earlier versions had neither forms nor crisp places.
+    """The settings that a result was made with; earlier versions had neither forms, crisp places nor even meshes.
 
     A property that someone changed to what is no value of its option counts as if it were not there.
     """

@@ -271,7 +271,7 @@ def _show_refiltered(look, result, wanted, found, between_steps=False) -> str:
 
 def _levels_stay(kept, wanted) -> bool:
     """Whether two settings choose among the levels of the same hierarchy."""
-    names = ("theta", "rho", "rule", "criteria", "crisp")
+    names = ("theta", "rho", "rule", "criteria", "crisp", "mesh")
     return all(getattr(kept, name) == getattr(wanted, name) for name in names)
 
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..bridge.wires import width_of, wires_of
-from ..core.settings import Form, SidesFrom
+from ..core.settings import Form, SidesFrom, applies_to_form
 from .form_panel import draw_more_of_form
 from .properties import copy_settings, draw_sampling, settings_from
 from .shown import shown_thing
@@ -54,8 +54,10 @@ class VIEW3D_PT_medial_axis_method(InSettings, bpy.types.Panel):
 
     def draw(self, context):
         settings, column = context.scene.medial_axis, settings_column(self.layout)
-        for name in ("rule", "criteria", "limit_set", "sides"):
-            column.prop(settings, name)
+        for name in ("rule", "criteria", "limit_set", "mesh", "sides"):
+            row = column.row()
+            row.active = name != "mesh" or applies_to_form(name, Form[settings.form])
+            row.prop(settings, name)
         if settings.sides == SidesFrom.WRAP.name:
             column.prop(settings, "wrap_opening")
         column.prop(settings, "each_part")

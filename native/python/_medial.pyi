@@ -397,6 +397,9 @@ class Hierarchy:
         Voronoi vertex, because the ball of the walls was not empty or too far away; 2: the ball touches the walls; 3:
         it is on a smooth rim; 4: it is on a convex crease; 5: it is in a corner."""
     @property
+    def on_crease(self) -> NDArray[np.uint8]:
+        """(v,) uint8: 1 where a rim ends on a sharp convex edge of the faces; none without faces."""
+    @property
     def edges(self) -> NDArray[np.int32]:
         """(e, 2) int32: ends of each edge, the lower vertex first."""
     @property

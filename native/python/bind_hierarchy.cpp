@@ -175,6 +175,10 @@ void bind_hierarchy(py::module_& m) {
       .def_property_readonly(
           "place", [](const Hierarchy& h) { return numbers_of(h.parts().crisp.place); },
           docs::Hierarchy_place)
+      .def_property_readonly("on_crease", part_property<uint8_t>([](const Hierarchy& h) -> auto& {
+                               return h.parts().on_crease;
+                             }),
+                             docs::Hierarchy_on_crease)
       .def_property_readonly("edges", part_property<int32_t>([](const Hierarchy& h) -> auto& {
                                return h.parts().complex.ends;
                              }),

@@ -46,7 +46,7 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
     compute(**{**EACH, "each_part": False})
     whole = addon("bridge.axis_object").result_of(source)
     assert whole["ma_pieces"] == 2  # two overlap
-    assert whole["ma_mesh"] == (
+    assert whole["ma_source_mesh"] == (
         "3 connected parts; 2 of them overlapping others; 1 of them apart from all others"
     )
     select(source)

@@ -37,7 +37,7 @@ def _lens(rings, around):
 
 def _made(mesh):
     """The axis, the placing of its vertices, and those of sheets."""
-    axis = medial_axis.compute(*mesh, sampling="vertices").axis
+    axis = medial_axis.compute(*mesh, sampling="vertices", mesh="voronoi").axis
     return axis, axis.level.place, np.unique(axis.face_vertices)
 
 

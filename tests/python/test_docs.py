@@ -231,6 +231,7 @@ STAGES = (
     "stage_tight_cocone",
     "stage_selection",
     "hierarchy",
+    "stage_even",
     "stage_crisp",
     "skeleton",
     "thickness",

@@ -14,7 +14,7 @@ from medial_axis.core.settings import OPTIONS, Settings
 from support.meshes import icosphere, torus
 from support.same_axis import same_axis as same
 
-FORM = ("form", "simplify", "erode", "spike", "limb", "detail", "crisp")
+FORM = ("form", "simplify", "erode", "spike", "limb", "detail", "crisp", "mesh")
 
 
 def egg(count=2000):
@@ -78,7 +78,7 @@ def test_points_as_in_the_add_on_from_lists():
     points = egg()
     ours = medial_axis.compute(points.tolist())
     theirs = axis.compute(points, np.empty((0, 3), np.int32), Settings())
-    assert ours.axis.facets > 100 and same(ours.axis, theirs.axis)
+    assert ours.axis.facets > 30 and same(ours.axis, theirs.axis)
 
 
 def test_normals_tell_inside_from_outside():

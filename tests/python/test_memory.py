@@ -27,6 +27,7 @@ from medial_axis.core.settings import (
     MEGABYTE,
     OPTIONS,
     AboveLimit,
+    Mesh,
     SamplingMode,
     Settings,
     Side,
@@ -326,9 +327,9 @@ def test_thinned_clouds_keep_what_fits_evenly_spread(room):
 
 def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
     room(5000, CLOUD)
-    shape = cloud()
-    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
-    for axis in (found.axis, refilter(found.key, Settings(rho=9.0, side=found.settings.side))):
+    shape, settings = cloud(), Settings(mesh=Mesh.VORONOI)
+    found = compute_axis(shape, settings, limit=MemoryLimit(0, THIN))
+    for axis in (found.axis, refilter(found.key, replace(found.settings, rho=9.0))):
         ends = shape.points[axis.generators[0]]
         vertex = axis.vertices[axis.face_vertices[axis.face_offsets[0]]]
         assert np.linalg.norm(ends - vertex, axis=1) == pytest.approx(

@@ -11,7 +11,7 @@ from medial_axis.core.samples.cube_faces import are_cubes
 from medial_axis.core.samples.rough_faces import smooth_faces
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import Form, Prepare, SamplingMode, Settings, SidesFrom
+from medial_axis.core.settings import Form, Mesh, Prepare, SamplingMode, Settings, SidesFrom
 from support.data import DATA
 from support.inputs import rotation
 from support.meshes import box, icosphere, torus
@@ -210,7 +210,11 @@ def test_the_axis_of_a_noisy_ring_is_a_ring():
     """As it is, the axis has flakes; prepared, it lies on the circle."""
     points, triangles = noisy_ring()
     off, found = (
-        compute(points, triangles, Settings(prepare=prepare, sampling=SamplingMode.VERTICES))
+        compute(
+            points,
+            triangles,
+            Settings(prepare=prepare, sampling=SamplingMode.VERTICES, mesh=Mesh.VORONOI),
+        )
         for prepare in (Prepare.OFF, Prepare.AUTOMATIC)
     )
     assert found.axis.level.betti == (1, 1, 0)

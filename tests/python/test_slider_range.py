@@ -8,7 +8,7 @@ import pytest
 from medial_axis.core.axis.compute import compute, extract_axis
 from medial_axis.core.axis.directions import facet_areas
 from medial_axis.core.axis.slider_range import slider_range
-from medial_axis.core.settings import Criteria, Form, Rule, SamplingMode, Settings, Side
+from medial_axis.core.settings import Criteria, Form, Mesh, Rule, SamplingMode, Settings, Side
 from support.meshes import box, icosphere
 
 
@@ -52,13 +52,13 @@ def test_areas_are_those_of_polygons():
 
 def test_sliders_of_a_box_act_from_end_to_end():
     points, triangles = box()
-    settings = Settings(sampling=SamplingMode.SURFACE, samples=2000)
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=2000, mesh=Mesh.VORONOI)
     computation = compute(points, triangles, settings)
     ranges = computation.axis.level.ranges
     whole = computation.axis.facets
     erode = ranges["erode"]
     half, none = (
-        extract_axis(computation, Settings(**kept(erode=erode.length(share))))
+        extract_axis(computation, Settings(**kept(erode=erode.length(share)), mesh=Mesh.VORONOI))
         for share in (0.5, 1.0)
     )
     assert 0.3 * whole < half.facets < 0.7 * whole and none.facets == 0

@@ -61,7 +61,7 @@ points = np.random.default_rng(0).normal(size=(2000, 3))
 points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
 one, other = load("medial_axis", sys.argv[1]), load("another_name", sys.argv[2])
 axes = [package.compute(points).axis for package in (one, other)]
-assert axes[0].facets > 100 and axes[0].vertices.tobytes() == axes[1].vertices.tobytes()
+assert axes[0].facets > 30 and axes[0].vertices.tobytes() == axes[1].vertices.tobytes()
 for package in (one, other, one):
     try:
         package.compute(points * (1, 1, 0))

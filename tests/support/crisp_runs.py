@@ -24,6 +24,7 @@ class Case:
     single: bool = False
     as_is: bool = False
     form: str = "clean"
+    mesh: str = "voronoi"
 
     def __str__(self) -> str:
         return f"{self.name}-{self.count}-{self.seed}{'-float32' * self.single}"
@@ -34,7 +35,7 @@ class Case:
         solid = crisp_solids.solid(self.name)
         turn = None if self.as_is else self.seed
         mesh, frame = crisp_solids.turned(solid.mesh, turn, self.single)
-        chosen = {"samples": self.count, "seed": self.seed, "form": self.form}
+        chosen = {"samples": self.count, "seed": self.seed, "form": self.form, "mesh": self.mesh}
         if knows_crisp():
             chosen["crisp"] = crisp
         return Made(self, medial_axis.compute(*mesh, sampling="surface", **chosen), frame)

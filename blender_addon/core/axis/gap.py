@@ -26,7 +26,9 @@ def gap_of(hierarchy: Any) -> float | None:
     """
     offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
     area = facet_areas(hierarchy.vertices, offsets, corners) * (hierarchy.facet_spacings > 1.0)
-    is_meant = hierarchy.facet_spacings == np.finfo(np.float32).max  # the faces say that they are there
+    is_meant = np.zeros(len(area), np.bool_)
+    if len(hierarchy.on_crease) and len(area):
+        is_meant = np.logical_or.reduceat(hierarchy.on_crease[corners], offsets[:-1])
     return length_in_gap(100 * hierarchy.facet_sheet.astype(np.float64), area, is_meant)
 
 

@@ -93,14 +93,26 @@ bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Ve
   const Plane before = plane_of(places);
   places[corner_of(corners, corner)] = place;
   const Plane after = plane_of(places);
-  if (after.height < kNeedle) return before.height < kNeedle && after.height >= before.height;
-  return dot(after.normal, even.normal[triangle]) > kMostTurn;
+  const double turn = dot(after.normal, even.normal[triangle]);
+  if (after.height >= kNeedle) return turn > kMostTurn;
+  return before.height < kNeedle && after.height >= before.height && turn >= 0;
 }
 
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place) {
   bool keeps = true;
   even.mesh.for_triangles(v, [&](int32_t t) { keeps = keeps && keeps_side(even, t, v, place); });
   return keeps && !folds(even, v, place);
+}
+
+bool can_collapse(const EvenMesh& even, int32_t from, int32_t to) {
+  if (!even.mesh.can_collapse(from, to)) return false;
+  const Vec3& place = even.position[to];
+  bool keeps = true;
+  even.mesh.for_triangles(from, [&](int32_t t) {
+    const Edge others = link_of(even.mesh.triangle(t), from);
+    keeps = keeps && (others[0] == to || others[1] == to || keeps_side(even, t, from, place));
+  });
+  return keeps && !folds(even, from, place);
 }
 
 void settle_normal(EvenMesh& even, int32_t triangle) {

@@ -35,6 +35,9 @@ bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Ve
 bool folds(const EvenMesh& even, int32_t v, const Vec3& place);
 // Returns whether all triangles at a vertex would keep their side, and no sheet would fold.
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
+// Returns whether a vertex can be collapsed into another one: the complex allows it, triangles keep
+// their side, and no sheet folds.
+bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
 // Takes over the normal of a triangle whose corners have moved.
 void settle_normal(EvenMesh& even, int32_t triangle);

@@ -99,18 +99,7 @@ class Remesher {
   bool collapse(int32_t from, int32_t to) {
     if (mesh_.stratum(from) > mesh_.stratum(to) || !mesh_.has_triangles(from)) return false;
     if (!(edge_length(from, to) < kShort * target(from, to))) return false;
-    if (!mesh_.can_collapse(from, to) || !keeps_line(from, to)) return false;
-    const Vec3& place = e_.position[to];
-    bool fits = true;
-    mesh_.for_triangles(from, [&](int32_t t) {
-      const Edge others = link_of(mesh_.triangle(t), from);
-      if (!fits || others[0] == to || others[1] == to) return;
-      fits = keeps_side(e_, t, from, place);
-      for (const int32_t other : others) {
-        fits = fits && distance(e_.position[other], place) < kLong * target(other, to);
-      }
-    });
-    if (!fits || folds(e_, from, place)) return false;
+    if (!keeps_line(from, to) || !can_collapse(e_, from, to) || !stays_short(from, to)) return false;
     moved_.clear();
     mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
     mesh_.collapse(from, to);
@@ -118,9 +107,19 @@ class Remesher {
     return true;
   }
 
-  // A held line keeps its bends.
+  // Returns whether no edge at the vertex gets too long.
+  bool stays_short(int32_t from, int32_t to) const {
+    bool all = true;
+    mesh_.for_corners(from, [&](int32_t other) {
+      all = all && (other == to || edge_length(other, to) < kLong * target(other, to));
+    });
+    return all;
+  }
+
+  // A held line keeps its bends, and what else is held stays.
   bool keeps_line(int32_t from, int32_t to) const {
     if (!e_.held[from]) return true;
+    if (mesh_.stratum(from) != Stratum::curve) return false;
     const Edge along = mesh_.along_curve(from);
     const int32_t other = along[0] == to ? along[1] : along[0];
     const Vec3 way = normalized(e_.position[to] - e_.position[other]);
@@ -150,6 +149,7 @@ class Remesher {
   }
 
   Vec3 wanted_place(int32_t v) const {
+    if (e_.held[v] && mesh_.stratum(v) != Stratum::curve) return e_.position[v];
     if (mesh_.stratum(v) == Stratum::sheet) return centre_of_sheet(v);
     if (mesh_.stratum(v) == Stratum::node) return centre_of_curves(v);
     const Edge along = mesh_.along_curve(v);

@@ -80,8 +80,8 @@ class SheetComplex {
   // Returns whether an edge inside a sheet can be replaced by the other diagonal of its two
   // triangles.
   bool can_flip(int32_t a, int32_t b) const;
-  // Of triangles_at(a, b), the first one gives up `b` and the second one `a`; they stay turned as
-  // they are.
+  // The first one of triangles_at(a, b) gives up `b` and the second one `a`; they stay turned as they
+  // are.
   void flip(int32_t a, int32_t b);
 
   // Divides an edge by a new vertex, which is returned. Of each triangle at the edge, the half at

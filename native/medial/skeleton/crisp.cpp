@@ -171,4 +171,20 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
   return std::move(state.made);
 }
 
+Array<uint8_t> vertices_on_creases(const InnerComplex& complex, const Triangulation& triangulation,
+                                   const SamplesOnFaces& samples, std::span<const Thickness> facets,
+                                   const Run& run) {
+  Array<uint8_t> found(complex.cell.size(), 0);
+  if (samples.creases().empty()) return found;
+  const Run quiet{run.threads, nullptr, run.arena};
+  const std::vector<uint8_t> none(complex.shrunk.size(), 0);
+  CrispState state(complex, triangulation, samples, facets, {}, none, {}, quiet);
+  CreaseRims creases(state);
+  parallel_for(complex.vertices(), quiet, [&](int64_t v) {
+    found[v] = state.on_rim[v] && creases.onto_crease(static_cast<int32_t>(v)) &&
+               state.made.place[v] >= Placing::crease;
+  });
+  return found;
+}
+
 }  // namespace medial

@@ -32,4 +32,9 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
                          std::span<const double> sine, std::span<const uint8_t> selected,
                          std::span<const uint8_t> edges, const Run& run);
 
+// Returns for each vertex whether a rim there ends on a convex crease.
+Array<uint8_t> vertices_on_creases(const InnerComplex& complex, const Triangulation& triangulation,
+                                   const SamplesOnFaces& samples, std::span<const Thickness> facets,
+                                   const Run& run);
+
 }  // namespace medial

@@ -8,6 +8,7 @@ namespace medial {
 namespace {
 
 constexpr int64_t kFew = 64;        // vertices that a thread takes at a time
+constexpr double kSamePlace = 1e-3;  // of the target length, between places that are one
 constexpr double kMostSlide = 0.7;  // of the target length that a rim moves at once
 constexpr double kAtEnd = 0.1;    // of the target length: a rim that moves less is at its end
 constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
@@ -133,7 +134,9 @@ void EvenPlaces::place(std::span<const int32_t> vertices) {
         found_[v] = e_.held[v] == kFree ? ball_at(v) : Touch{};
       },
       kFew);
+  for (const int32_t v : vertices) join_neighbour(v);
   for (const int32_t v : vertices) {
+    if (!e_.mesh.has_triangles(v)) continue;
     if (e_.held[v] != kFree) {
       placing_[v] = e_.held[v] == kInCorner ? Placing::corner : Placing::crease;
       continue;
@@ -146,6 +149,18 @@ void EvenPlaces::place(std::span<const int32_t> vertices) {
     move(e_, v, ball.position);
     radius_[v] = ball.radius;
   }
+}
+
+// Neighbours with the same ball become one: triangles between them would have no area.
+void EvenPlaces::join_neighbour(int32_t v) {
+  if (!(found_[v].radius > 0) || !e_.mesh.has_triangles(v)) return;
+  int32_t same = -1;
+  e_.mesh.for_corners(v, [&](int32_t other) {
+    if (same >= 0 || !(found_[other].radius > 0)) return;
+    const double apart = distance(found_[v].position, found_[other].position);
+    if (apart < kSamePlace * e_.target[v] && can_collapse(e_, v, other)) same = other;
+  });
+  if (same >= 0) e_.mesh.collapse(v, same);
 }
 
 std::vector<int32_t> EvenPlaces::open_rims() const {

@@ -30,6 +30,7 @@ class EvenPlaces {
 
  private:
   void place(std::span<const int32_t> vertices);
+  void join_neighbour(int32_t v);
   std::vector<int32_t> open_rims() const;
   double hole_at(int32_t v) const;
   std::vector<Foot> feet_of(int32_t v) const;

@@ -231,6 +231,10 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   collapse_all(made, facets, weight, beside_fire, beside_limbs, bar, watch, run);
   release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
+  if (made.on_faces) {
+    made.on_crease = vertices_on_creases(made.complex, facets.triangulation, *made.on_faces,
+                                         made.values.facet, {run.threads, nullptr, run.arena});
+  }
   if (made.on_faces && places) {
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
@@ -262,7 +266,7 @@ size_t Hierarchy::bytes() const {
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
                  c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, p.row,
-                 p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place) +
+                 p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place, p.on_crease) +
          (c.dual.size() + c.cell.size()) * sizeof(float) +  // of `spikes`, known or not
          p.samples.bytes() + p.spacing.size() * sizeof(double) +
          (p.faces ? p.faces->bytes() + p.on_faces->bytes() : 0);

@@ -28,7 +28,8 @@ struct Hierarchy::Parts {
   Array<double> sine, rho;             // per facet, as in Significance
   std::unique_ptr<const Faces> faces;  // null if there are none
   std::unique_ptr<const SamplesOnFaces> on_faces;  // likewise
-  CrispPlaces crisp;                   // empty without faces
+  CrispPlaces crisp;                   // empty without faces, or where they were not wanted
+  Array<uint8_t> on_crease;            // per vertex: whether a rim ends there; empty without faces
   PointTree samples;
   std::vector<int32_t> row;     // of each sample in the input
   std::vector<double> spacing;  // of each sample: the largest hole beside it
