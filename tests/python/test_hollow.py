@@ -185,6 +185,18 @@ def test_the_drain_hole_leads_from_the_lowest_place_through_the_wall():
     assert aside.end[0] > 0.5 and np.abs(aside.end[1:]).max() < 0.1
 
 
+@pytest.mark.parametrize("offset, code", [(1e4, cli.DONE), (1e6, cli.FAILED)])
+def test_stl_far_from_the_origin(tmp_path, capsys, offset, code):
+    points, triangles = block(10.0, 9.0, 8.0)
+    source = write_off(tmp_path / "far.off", (points + offset, triangles))
+    for name, expected in (("a.stl", code), ("a.ply", cli.DONE)):
+        words = ["hollow", source, str(tmp_path / name), "--wall", "2", "--quiet"]
+        assert cli.main(words) == expected
+        assert (tmp_path / name).exists() == (expected == cli.DONE)
+    said = capsys.readouterr().err
+    assert ("Expected coordinates that fit the 32 bits of .stl" in said) == (code != cli.DONE)
+
+
 def test_files_and_figures(tmp_path, capsys):
     source = write_off(tmp_path / "block.off", block(10.0, 9.0, 8.0))
     for name in ("a.stl", "a.ply", "a.obj", "a.off"):

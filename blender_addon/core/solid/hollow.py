@@ -45,6 +45,8 @@ class Hollow(TriangleFaces):
         So many triangles are those of the shape.
     wall : float
         The wall that was asked for.
+    step : float
+        The edge of the cubes of the lattice.
     least : float
         Nowhere is the wall thinner: a bound, not a measurement.
     deepest : float
@@ -62,6 +64,7 @@ class Hollow(TriangleFaces):
     triangles: NDArray[np.int32]
     outer: int
     wall: float
+    step: float
     least: float
     deepest: float
     volume: float
@@ -185,6 +188,7 @@ def _shell(
         np.concatenate((faces, inner)),
         len(faces),
         wall,
+        step,
         float(least_distances(surface).min()),
         float(np.max(depths)),
         shape.volume - taken,
