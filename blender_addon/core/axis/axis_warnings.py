@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.sampling_warnings import sampling_warnings
@@ -101,7 +103,12 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
             "may lie beyond the opening: choose side Both, or lower theta or rho"
         )
     spacing = chosen.samples.spacing
-    if closed and spacing > (thickness := 2.0 * shape.volume / shape.area):
+    thickness = 2.0 * shape.volume / shape.area if shape.area > 0.0 else 0.0
+    if closed and thickness <= np.finfo(np.float32).eps * np.abs(shape.points).max():
+        return (
+            "the faces enclose no volume, as where each of them stands twice; give them thickness (a Solidify modifier)"
+        )
+    if closed and spacing > thickness:
         return (
             f"the shape is about {thickness:.2g} thick, less than its samples are apart ({spacing:.2g}); "
             "use more samples, or a smaller Spacing"

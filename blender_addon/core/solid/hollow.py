@@ -13,6 +13,7 @@ from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
 from ..samples.buried_samples import bounding_share
+from ..samples.mesh_parts import check_no_sheet
 from ..samples.outward_faces import are_left_out, outward_shape, reading_warnings
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
@@ -100,6 +101,8 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     ------
     InvalidInputError
         The wall is not above 0, the faces do not enclose a solid, or no place in it is so far from them.
+    DegenerateInputError
+        The faces are an open sheet.
     NativeModuleError, OutOfMemoryError, Cancelled
     """
     start, progress = time.perf_counter(), progress or Progress()
@@ -122,6 +125,7 @@ def _check(shape: Shape, wanted: HollowSettings) -> None:
     with own_errors() as module:
         gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 1
     if gaps or not shape.volume > 0.0:
+        check_no_sheet(shape)
         raise InvalidInputError(
             "Expected closed faces that enclose a solid, found none or open ones; close the mesh, or reconstruct its "
             "surface, then hollow it"

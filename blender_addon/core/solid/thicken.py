@@ -20,6 +20,7 @@ from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..samples.density import percent
+from ..samples.mesh_parts import check_no_sheet
 from ..samples.outward_faces import outward_shape
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
@@ -168,8 +169,9 @@ def _asked(wanted: ThickenSettings, edges: Edges) -> ThicknessSettings:
 
 
 def _check_faces(shape: Shape, settings: Settings, wanted: ThickenSettings) -> None:
-    """Raise InvalidInputError where the faces do not bound a solid by themselves."""
+    """Raise InvalidInputError where the faces do not bound a solid by themselves, DegenerateInputError of a sheet."""
     if not are_enough(shape, settings, _asked(wanted, Edges.EXTRAPOLATE)):
+        check_no_sheet(shape)
         raise InvalidInputError(
             "Expected closed faces that bound one solid, found faces that are open, overlap or lie inside it; close "
             "the mesh or remesh it, then thicken it"
