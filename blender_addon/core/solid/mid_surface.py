@@ -60,6 +60,7 @@ _CURVED = (
 _TRIANGLES = 4.0 / 3.0**0.5  # equilateral triangles for an area of one squared edge
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
+_DOUBLED = 1.05  # where they have more than this of it, one does, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,6 +290,12 @@ def _with_thickness(
 
 
 def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
+    """A sentence where area times thickness is not the volume."""
+    if share > _DOUBLED:
+        return (
+            f"the sheets have {percent(share)} of the volume: where walls meet, both count, but some may also lie twice "
+            "or not in the middle; more samples may help",
+        )
     if share >= _MOST:
         return ()
     if least >= spacing:
