@@ -174,8 +174,7 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     shape = _without_bent_sheets(shape, settings)
     if not _open_edges(shape, settings):
         return shape
-    with native.own_errors() as module:
-        part, is_open, _ = module.mesh_parts(shape.points, shape.triangles)
+    part, is_open = shape.connected
     if len(is_open) < 2:
         return shape
     spacing = first_pass(shape, settings).spacing
@@ -206,9 +205,8 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
 
 def _are_of_bent_sheets(shape: Shape) -> tuple[NDArray[np.bool_], bool]:
     """(m,) mark the faces of bent sheets, and whether these are all that count for something."""
-    with native.own_errors() as module:
-        part, _, _ = module.mesh_parts(shape.points, shape.triangles)
-    found = bent_sheets(shape, part, int(part.max(initial=-1)) + 1)[part] & (part >= 0)
+    part, is_open = shape.connected
+    found = bent_sheets(shape, part, len(is_open))[part] & (part >= 0)
     return found, bool(found.any() and (found | (part < 0)).all())
 
 
