@@ -167,7 +167,7 @@ def test_a_wall_round_a_cavity_lies_loose_in_one_space():
     found = hollowed(joined(outer, (inner[0], inner[1][:, ::-1])), 0.1, voxel_size=0.05)
     assert (found.cavities, found.loose) == (1, 1)
     (said,) = found.warnings
-    assert "a wall lies loose in the hollow" in said
+    assert "lie loose in the hollow, 1 in all" in said
     # Round the inner box the space has rounded edges.
     space = 0.8**3 - (0.4**3 + 6 * 0.16 * 0.1 + 3 * 0.4 * np.pi * 0.01 + 4 / 3 * np.pi * 1e-3)
     assert found.solid_volume - found.volume == pytest.approx(space, rel=0.01)
@@ -177,7 +177,7 @@ def test_a_wall_that_takes_minutes_is_refused_with_the_least_that_does_not():
     mesh = block(1.0, 0.7, 0.4)
     with pytest.raises(InvalidInputError, match="which takes minutes") as refused:
         hollowed(mesh, 0.005)
-    least = float(str(refused.value).split("at least ")[1].split(",")[0])
+    least = float(str(refused.value).split("at least ")[1].split(" ")[0])
     assert 0.005 < least < 0.02
     shape = Shape(*mesh)
     step = _step(shape, HollowSettings(wall=least))

@@ -141,10 +141,14 @@ def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
 
 def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
     """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
-    others = ", or choose Side Both, or Inside From Normals for what lies behind it" if of_axis else ""
+    if not of_axis:
+        return DegenerateInputError(
+            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
+            "Solidify modifier)"
+        )
     return DegenerateInputError(
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        f"Solidify modifier){others}"
+        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
     )
 
 

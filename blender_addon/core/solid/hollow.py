@@ -146,12 +146,14 @@ def _step(shape: Shape, wanted: HollowSettings) -> float:
     step = min(step, COARSEST * wanted.wall)
     if step < finest:
         least = _ROUNDED_UP * finest
-        found = f"{wanted.wall:g} and {step:.2g}; take a thicker wall or larger voxels"
         if not chosen:
-            found = f"{wanted.wall:g}, which takes minutes; take a thicker wall, or set Voxel Size to {step:.2g} and wait"
+            raise InvalidInputError(
+                f"Expected a wall of at least {least / COARSEST:.2g} for a surface of this size, found "
+                f"{wanted.wall:g}, which takes minutes; take a thicker wall, or set Voxel Size to {step:.2g} and wait"
+            )
         raise InvalidInputError(
             f"Expected a wall of at least {least / COARSEST:.2g}, or voxels of {least:.2g}, for a surface of this "
-            f"size, found {found}"
+            f"size, found {wanted.wall:g} and {step:.2g}; take a thicker wall or larger voxels"
         )
     return step
 
@@ -226,9 +228,9 @@ def _warnings(shape: Shape, cavities: int, loose: int, step: float) -> tuple[str
             f"the solid is hollow in {cavities:,} places that are not connected; a hole drains one of them"
         )
     if loose:
-        walls = "a wall lies" if loose == 1 else f"{loose:,} walls lie"
         found.append(
-            f"{walls} loose in the hollow, round cavities that the solid had; fill these first, or join them by bars"
+            f"walls round cavities that the solid had lie loose in the hollow, {loose:,} in all; fill these cavities "
+            "first, or join the walls by bars"
         )
     return tuple(found)
 

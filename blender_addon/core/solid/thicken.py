@@ -202,10 +202,15 @@ def _missing(found: Measurement, limit: float) -> float:
 def _left_over(left: ThinParts, moved: bool) -> tuple[str, ...]:
     if not left.patches:
         return ()
-    thin = f"{percent(left.share)} of the surface is still thinner than the limit, down to {left.patches[0].minimum:.3g}"
     if not moved:
-        return (f"{thin}: nothing moved, as a step would make more of it thin; take a smaller limit",)
-    return (f"{thin}: tips and edges that taper stay, and coarse faces need a subdivision",)
+        return (
+            f"{percent(left.share)} of the surface is still thinner than the limit, down to "
+            f"{left.patches[0].minimum:.3g}: nothing moved, as a step would make more of it thin; take a smaller limit",
+        )
+    return (
+        f"{percent(left.share)} of the surface is still thinner than the limit, down to "
+        f"{left.patches[0].minimum:.3g}: tips and edges that taper stay, and coarse faces need a subdivision",
+    )
 
 
 class _Walls:
@@ -347,7 +352,8 @@ class _Walls:
 
     def _pairs(self, shape: Shape) -> NDArray[np.int64]:
         """(p,) a number for each pair of faces that pass through each other."""
-        return shape.crossing.astype(np.int64) @ np.array([len(self._triangles), 1])
+        low, high = shape.crossing.astype(np.int64).T
+        return np.asarray(low * len(self._triangles) + high)
 
     def _without_turns(
         self, points: NDArray[np.float64], step: NDArray[np.float64]
