@@ -436,6 +436,21 @@ def test_a_pipe_as_thick_as_it_is_long_has_no_thin_wall():
         sheets_of(pipe(32, 1.0, 1.0, 0.5, 0.5), Settings(samples=2000))
 
 
+def test_a_sheet_without_thickness_is_none():
+    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    made = SheetFaces(
+        np.concatenate((square, square + 2)),
+        np.array([0, 4, 7, 10], np.int32),
+        np.array([4, 5, 6, 7, 0, 1, 2, 0, 2, 3], np.int32),
+        np.array([0, 1, 1], np.int32),
+    )
+    left = middle._with_volume(made, np.array([0.0, 0.0, 0.1]))
+    np.testing.assert_array_equal(left.vertices, square)
+    assert left.corners.tolist() == [0, 1, 2, 0, 2, 3] and left.offsets.tolist() == [0, 3, 6]
+    assert left.part.tolist() == [1, 1]
+    assert middle._with_volume(made, np.array([0.1, 0.0, 0.1])) is made
+
+
 def test_more_volume_than_the_solid_has_is_told():
     (said,) = middle._left_out(1.06, 0.1, 0.01)
     assert "106 % of the volume" in said
