@@ -140,7 +140,7 @@ def compute(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
+    return axis.compute_axis(_shape(points, triangles, normals), wanted, _progress(progress))
 
 
 def compute_each_part(
@@ -169,7 +169,8 @@ def compute_each_part(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    return each_part.compute_each_part(_shape(points, triangles, normals), wanted, progress)
+    shape = _shape(points, triangles, normals)
+    return each_part.compute_each_part(shape, wanted, _progress(progress))
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
@@ -187,6 +188,7 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ------
     InvalidInputError
     """
+    _check_kind(computation, "computation", Computation)
     settings = replace(computation.settings, **_checked(thresholds, _THRESHOLDS))
     return axis.extract_axis(computation, settings)
 
@@ -245,7 +247,8 @@ def cover_by_balls(
         refine=_value(refine, "refine", BALL_OPTIONS["refine"]),
     )
     chosen = Settings(**_checked(settings, list(OPTIONS)))
-    return ball_cover.cover_by_balls(_shape(points, triangles, normals), chosen, wanted, progress)
+    shape = _shape(points, triangles, normals)
+    return ball_cover.cover_by_balls(shape, chosen, wanted, _progress(progress))
 
 
 def reduce(
@@ -271,8 +274,9 @@ def reduce(
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     """
-    whole = found.axis if isinstance(found, Computation) else found
-    return reduce_axis(whole, vertices, progress)
+    most = int(np.iinfo(np.int32).max)
+    count = min(_plain(vertices, "vertices", int, "give a number above 0"), most)
+    return reduce_axis(_axis(found), count, _progress(progress))
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
@@ -287,7 +291,7 @@ def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Recon
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    return reconstruction.reconstruct(_numbers(points, "points"), progress)
+    return reconstruction.reconstruct(_numbers(points, "points"), _progress(progress))
 
 
 def read(path: str | os.PathLike[str]) -> Shape:
@@ -299,7 +303,7 @@ def read(path: str | os.PathLike[str]) -> Shape:
     ------
     ReadError, OutOfMemoryError
     """
-    shape, _ = read_shape(path)
+    shape, _ = read_shape(_path(path))
     return shape
 
 
@@ -325,8 +329,7 @@ def write(
     ------
     ExportError
     """
-    axis = found.axis if isinstance(found, Computation) else found
-    return export_axis(axis, path, triangles=triangles)
+    return export_axis(_axis(found), _path(path), triangles=triangles)
 
 
 def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
@@ -346,7 +349,8 @@ def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
     ------
     ExportError
     """
-    return export_balls(found.balls if isinstance(found, BallCover) else found, path)
+    _check_kind(found, "found", Balls, BallCover)
+    return export_balls(found.balls if isinstance(found, BallCover) else found, _path(path))
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
@@ -356,10 +360,42 @@ def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
     ------
     ReadError
     """
-    return read_ma(path) if Path(path).suffix.lower() == ".ma" else load_axis(path)
+    name = _path(path)
+    return read_ma(name) if name.suffix.lower() == ".ma" else load_axis(name)
 
 
 # --- what callers give
+
+
+def _axis(found: MedialAxis | Computation) -> MedialAxis:
+    _check_kind(found, "found", MedialAxis, Computation)
+    return found.axis if isinstance(found, Computation) else found
+
+
+def _progress(given: Progress | None) -> Progress | None:
+    if given is not None:
+        _check_kind(given, "progress", Progress)
+    return given
+
+
+def _path(given: str | os.PathLike[str]) -> Path:
+    """The path, of text or of bytes, as `open` takes them."""
+    _check_kind(given, "path", str, bytes, os.PathLike)
+    name = os.fsdecode(given)
+    if "\0" in name:
+        raise InvalidInputError(
+            f"Expected a path that files can have, found {name!r} with a zero byte; remove it"
+        )
+    return Path(name)
+
+
+def _check_kind(given: Any, name: str, *kinds: type) -> None:
+    if not isinstance(given, kinds):
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise InvalidInputError(
+            f"Expected {name} of the kind {names}, found {type(given).__name__}; give what the other "
+            "functions return, or a name of a file"
+        )
 
 
 def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | None) -> Shape:
@@ -396,8 +432,13 @@ def _corners(rows: ArrayLike) -> NDArray[np.int32]:
 def _rows(rows: ArrayLike, name: str, kinds: str, what: str) -> NDArray[Any]:
     try:
         found = np.asarray(rows)
-    except ValueError:  # rows of different lengths
+    except (TypeError, ValueError):  # rows of different lengths, or what is no array
         found = np.empty(0, object)
+    if np.ma.is_masked(rows):
+        raise InvalidInputError(
+            f"Expected {name} that are all known, found {np.ma.count_masked(rows):,} masked numbers; leave their rows "
+            "out"
+        )
     if found.ndim != 2 or found.shape[1] != 3 or found.dtype.kind not in kinds:
         raise InvalidInputError(
             f"Expected {name} as rows of three {what}, found shape {found.shape} of "
@@ -420,13 +461,18 @@ def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
 def _value(value: Any, name: str, option: Any) -> Any:
     if isinstance(option, Choice):
         return _member(name, option, value)
-    wanted: Any = bool if isinstance(option, Switch) else type(option.default)
+    wanted = bool if isinstance(option, Switch) else type(option.default)
+    return _plain(value, name, wanted, f"the default is {option.default}")
+
+
+def _plain(value: Any, name: str, wanted: Any, advice: str) -> Any:
+    """The value as bool, int or float, if it is one without rounding."""
     try:
         if isinstance(value, str) or wanted(value) != value:
             raise ValueError
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidInputError(
-            f"Expected {name} as {wanted.__name__}, found {value!r}; the default is {option.default}"
+            f"Expected {name} as {wanted.__name__}, found {value!r}; {advice}"
         ) from None
     return wanted(value)
 

@@ -79,9 +79,10 @@ def divided(found: Iterable[Item], wanted: argparse.Namespace) -> Iterator[Item]
 
 
 def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
+    stem = Path(pattern).stem
+    stem = stem.rstrip("#").rstrip("_.-") or stem
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
-        stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
         yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path, wanted.limit))
 
 

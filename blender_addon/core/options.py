@@ -17,7 +17,7 @@ from .errors import InvalidInputError
 
 @dataclass(frozen=True)
 class Number:
-    """A number in [minimum, maximum]; a slider ends at `soft_maximum`."""
+    """A number in [minimum, maximum], finite if it is a length; a slider ends at `soft_maximum`."""
 
     label: str
     description: str
@@ -140,9 +140,12 @@ def _check_kind(name: str, option: Any, value: Any) -> None:
 
 
 def _check_range(name: str, option: Number | Integer, value: float) -> None:
-    if not option.minimum <= value <= option.maximum:
+    endless = option.unit == "length" and math.isinf(value)
+    if endless or not option.minimum <= value <= option.maximum:
         style = "," if isinstance(option, Integer) else ".6g"
-        limits = f"at least {option.minimum:{style}}"
+        limits = f"a finite length of at least {option.minimum:{style}}"
+        if option.unit != "length":
+            limits = f"at least {option.minimum:{style}}"
         if math.isfinite(option.maximum):
             limits = f"from {option.minimum:{style}} to {option.maximum:{style}} {option.unit}"
         raise InvalidInputError(

@@ -16,13 +16,13 @@ from medial_axis.core.machine.progress import Progress
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import HollowSettings
 from medial_axis.core.solid.drain_hole import drain_hole
-from medial_axis.core.solid.hollow import hollow
+from medial_axis.core.solid.hollow import _step, hollow
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support import topology
 from support.crossing_triangles import crossing_pairs
 from support.distance import to_triangle
 from support.meshes import icosphere, read, torus, write_off
-from support.thick_meshes import block
+from support.thick_meshes import block, joined
 from support.thin_solids import turned, union
 
 
@@ -161,6 +161,30 @@ def test_two_rooms_are_told():
     assert found.cavities == 2 and any("2 places" in text for text in found.warnings)
 
 
+def test_a_wall_round_a_cavity_lies_loose_in_one_space():
+    """A box in a box with a wall of 0.3: two walls of 0.1, and one space between them."""
+    outer, inner = block(1.0, 1.0, 1.0), block(0.4, 0.4, 0.4)
+    found = hollowed(joined(outer, (inner[0], inner[1][:, ::-1])), 0.1, voxel_size=0.05)
+    assert (found.cavities, found.loose) == (1, 1)
+    (said,) = found.warnings
+    assert "lie loose in the hollow, 1 in all" in said
+    # Round the inner box the space has rounded edges.
+    space = 0.8**3 - (0.4**3 + 6 * 0.16 * 0.1 + 3 * 0.4 * np.pi * 0.01 + 4 / 3 * np.pi * 1e-3)
+    assert found.solid_volume - found.volume == pytest.approx(space, rel=0.01)
+
+
+def test_a_wall_that_takes_minutes_is_refused_with_the_least_that_does_not():
+    mesh = block(1.0, 0.7, 0.4)
+    with pytest.raises(InvalidInputError, match="which takes minutes") as refused:
+        hollowed(mesh, 0.005)
+    least = float(str(refused.value).split("at least ")[1].split(" ")[0])
+    assert 0.005 < least < 0.02
+    shape = Shape(*mesh)
+    step = _step(shape, HollowSettings(wall=least))
+    assert shape.area / step**2 < 80_000
+    assert _step(shape, HollowSettings(wall=0.005, voxel_size=0.0025)) == 0.0025
+
+
 @pytest.mark.parametrize(
     "mesh, wall, voxel, words",
     (
@@ -183,6 +207,18 @@ def test_the_drain_hole_leads_from_the_lowest_place_through_the_wall():
     assert hole.end[2] < -0.4 and hole.start[2] > -0.3
     aside = drain_hole(found, 0.05, down, near=np.array((2.0, 0.0, 0.0)))
     assert aside.end[0] > 0.5 and np.abs(aside.end[1:]).max() < 0.1
+
+
+@pytest.mark.parametrize("offset, code", [(1e4, cli.DONE), (1e6, cli.FAILED)])
+def test_stl_far_from_the_origin(tmp_path, capsys, offset, code):
+    points, triangles = block(10.0, 9.0, 8.0)
+    source = write_off(tmp_path / "far.off", (points + offset, triangles))
+    for name, expected in (("a.stl", code), ("a.ply", cli.DONE)):
+        words = ["hollow", source, str(tmp_path / name), "--wall", "2", "--quiet"]
+        assert cli.main(words) == expected
+        assert (tmp_path / name).exists() == (expected == cli.DONE)
+    said = capsys.readouterr().err
+    assert ("Expected coordinates that fit the 32 bits of .stl" in said) == (code != cli.DONE)
 
 
 def test_files_and_figures(tmp_path, capsys):

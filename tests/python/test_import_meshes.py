@@ -52,6 +52,26 @@ def obj(faces=QUADS.tolist()):
     return "\n".join([*lines, *["f " + " ".join(str(i + 1) for i in face) for face in faces], ""])
 
 
+def off():
+    rows = ["{:g} {:g} {:g}".format(*point) for point in POINTS]
+    return "\n".join(["OFF", "8 6 0", *rows, *["4 {} {} {} {}".format(*q) for q in QUADS], ""])
+
+
+def off_binary(
+    order=">", real="f", colours=(0,), faces=QUADS.tolist(), points=POINTS, kind=""
+):
+    """A binary OFF file; `colours` follow each face: their number, and as many words."""
+    words = [word for face in faces for word in (len(face), *face, *colours)]
+    return b"".join(
+        (
+            f"{kind}OFF BINARY\n".encode(),
+            struct.pack(f"{order}3i", len(points), len(faces), 0),
+            struct.pack(f"{order}{points.size}{real}", *points.ravel()),
+            struct.pack(f"{order}{len(words)}i", *words),
+        )
+    )
+
+
 def stl_text():
     facets = []
     for triangle in POINTS[TRIANGLES]:
@@ -248,7 +268,17 @@ def test_obj_refused(refuse, content, words):
 # --- STL
 
 
-@pytest.mark.parametrize("content", [stl_text(), stl_binary(), stl_binary(b"solid it is not")])
+@pytest.mark.parametrize(
+    "content",
+    [
+        stl_text(),
+        stl_text().replace("solid cube", "a title of some exporter", 1),
+        stl_text().removeprefix("solid cube\n").upper(),
+        stl_binary(),
+        stl_binary(b"solid it is not"),
+        stl_binary(b"\xef\xbb\xbfsolid facet normal"),
+    ],
+)
 def test_stl(read, content):
     found = read("a.stl", content)
     assert len(found.vertices) == 8 and found.faces == 12
@@ -263,7 +293,8 @@ def test_stl(read, content):
 @pytest.mark.parametrize(
     "content, words",
     [
-        (b"", "'solid' at the start"),
+        (b"", "'solid' and facets"),
+        ("solid of no format whatever", "three corners|points, found none"),
         (stl_binary()[:-1], "12 triangles as its header says"),
         (stl_text().replace("    vertex 0 0 0\n", "", 1), "three corners of each facet"),
         (stl_text().replace("vertex 0 0 0", "vertex 0 a 0", 1), "three numbers after"),
@@ -272,6 +303,59 @@ def test_stl(read, content):
 )
 def test_stl_refused(refuse, content, words):
     refuse("a.stl", content, words)
+
+
+# --- text of other programs
+
+
+@pytest.mark.parametrize(
+    "name, content",
+    [
+        ("a.obj", obj()),
+        ("a.off", off()),
+        ("a.ply", ply()),
+        ("a.ply", ply("binary_little_endian")),
+        ("a.stl", stl_text()),
+        ("a.xyz", "".join("{:g} {:g} {:g}\n".format(*p) for p in POINTS)),
+    ],
+)
+def test_a_byte_order_mark_changes_nothing(read, name, content):
+    content = content if isinstance(content, bytes) else content.encode()
+    plain, marked = read(name, content), read(name, b"\xef\xbb\xbf" + content)
+    np.testing.assert_array_equal(marked.vertices, plain.vertices)
+    np.testing.assert_array_equal(marked.face_vertices, plain.face_vertices)
+
+
+# --- binary OFF
+
+
+@pytest.mark.parametrize("faces", [QUADS.tolist(), MIXED])
+@pytest.mark.parametrize(
+    "order, real, colours",
+    [(">", "f", (0,)), (">", "f", (4, 0, 0, 0, 0)), ("<", "f", ()), ("<", "d", ())],
+    ids=["CGAL", "Geomview", "pmp", "pmp of 64 bits"],
+)
+def test_binary_off(read, faces, order, real, colours):
+    assert_cube(read("a.off", off_binary(order, real, colours, faces)), faces=faces)
+
+
+def test_binary_off_with_normals(read):
+    found = read("a.off", off_binary(points=np.column_stack([POINTS, NORMALS]), kind="N"))
+    np.testing.assert_array_equal(found.vertices, POINTS)
+    np.testing.assert_allclose(found.normals, NORMALS, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        (off_binary()[:-1], "points and faces that the counts"),
+        (off_binary() + b"\0", "points and faces that the counts"),
+        (off_binary(faces=[[0, 1, 8]]), "corners from 0 to 7"),
+        (off_binary(points=POINTS + np.inf), "finite numbers"),
+    ],
+)
+def test_binary_off_refused(refuse, content, words):
+    refuse("a.off", content, words)
 
 
 # --- NumPy
@@ -317,6 +401,7 @@ FUZZED = {
     "e.stl": stl_text().encode(),
     "f.stl": stl_binary(),
     "g.npy": npy(POINTS),
+    "i.off": off_binary(),
     "h.npz": npz(points=POINTS, triangles=TRIANGLES),
 }
 

@@ -172,6 +172,59 @@ def test_wrong_input_is_one_sentence(given, settings, said):
         medial_axis.compute(*given, **settings)
 
 
+MISUSES = {
+    "masked points": lambda found, path: library.compute(
+        np.ma.masked_greater(POINTS, 0.5), TRIANGLES
+    ),
+    "masked triangles": lambda found, path: library.compute(
+        POINTS, np.ma.masked_equal(TRIANGLES, 3)
+    ),
+    "points that are none": lambda found, path: library.compute(None),
+    "a huge number": lambda found, path: library.compute(POINTS, TRIANGLES, theta=10**400),
+    "progress of compute": lambda found, path: library.compute(POINTS, progress="x"),
+    "progress of parts": lambda found, path: library.compute_each_part(
+        POINTS, TRIANGLES, progress=1
+    ),
+    "progress of balls": lambda found, path: library.cover_by_balls(POINTS, progress=1),
+    "progress of a surface": lambda found, path: library.reconstruct(POINTS, progress=1),
+    "progress of few vertices": lambda found, path: library.reduce(found, 9, progress=1),
+    "vertices as text": lambda found, path: library.reduce(found, "4"),
+    "half a vertex": lambda found, path: library.reduce(found, 4.5),
+    "no vertices": lambda found, path: library.reduce(found, 0),
+    "too many vertices": lambda found, path: library.reduce(None, 10**30),
+    "few vertices of nothing": lambda found, path: library.reduce(None, 4),
+    "extract of nothing": lambda found, path: library.extract(None),
+    "extract of an axis": lambda found, path: library.extract(found.axis),
+    "write of nothing": lambda found, path: library.write(None, path),
+    "a path that is a number": lambda found, path: library.write(found, 5),
+    "a path with a zero byte": lambda found, path: library.write(found, f"{path}\0.ma"),
+    "balls of an axis": lambda found, path: library.write_balls(found, path),
+    "read of a number": lambda found, path: library.read(5),
+    "read of an axis from a number": lambda found, path: library.read_axis(5),
+}
+
+
+@pytest.fixture(scope="module")
+def small():
+    return medial_axis.compute(POINTS, TRIANGLES)
+
+
+@pytest.mark.parametrize("name", MISUSES)
+def test_every_error_is_one_of_its_own_in_a_sentence(small, tmp_path, name):
+    with pytest.raises(medial_axis.MedialAxisError, match="^Expected .*, found .*; .*$"):
+        MISUSES[name](small, tmp_path / "a.ma")
+
+
+def test_a_path_may_be_bytes(small, tmp_path):
+    written = medial_axis.write(small, bytes(tmp_path / "a.ma"))
+    assert written == tmp_path / "a.ma" and len(medial_axis.read_axis(bytes(written)).vertices)
+
+
+def test_a_masked_array_without_masked_numbers_is_an_array(small):
+    again = medial_axis.compute(np.ma.array(POINTS), TRIANGLES)
+    np.testing.assert_array_equal(again.axis.vertices, small.axis.vertices)
+
+
 def test_what_needs_another_analysis_is_not_extracted():
     found = medial_axis.compute(egg(500))
     for name in OPTIONS:

@@ -404,6 +404,59 @@ def star(tips, thickness):
     return points, np.concatenate([np.column_stack(each) for each in faces])
 
 
+def pipe(around, low, high, wall, length):
+    """A pipe with flat ends, whose outer radius goes from `low` to `high`."""
+    angles = 2 * np.pi * np.arange(around) / around
+    circle = np.column_stack((np.cos(angles), np.sin(angles), 0 * angles))
+    rims = ((low, 0), (high, length), (high - wall, length), (low - wall, 0))
+    points = np.concatenate([circle * (r, r, 0) + (0, 0, z) for r, z in rims])
+    i, j = np.arange(around), np.roll(np.arange(around), -1)
+    pairs = [(k * around, (k + 1) % 4 * around) for k in range(4)]
+    faces = [t for a, b in pairs for t in ((a + i, a + j, b + j), (a + i, b + j, b + i))]
+    return points, np.concatenate([np.column_stack(each) for each in faces])
+
+
+@pytest.mark.parametrize(
+    "around, low, high, wall, length",
+    [(64, 1.0, 1.0, 0.05, 0.4), (16, 1.0, 1.0, 0.1, 1.5), (24, 0.6, 1.0, 0.1, 1.0)],
+)
+def test_the_middle_of_a_pipe_is_round(around, low, high, wall, length):
+    found = sheets_of(pipe(around, low, high, wall, length), Settings(samples=3000))
+    slant = np.hypot(high - low, length)
+    polygon = around * np.sin(np.pi / around)  # half of the circumference of radius 1
+    area = polygon * (low + high - wall) * slant
+    assert areas(found).sum() == pytest.approx(area, rel=0.015)
+    across = wall * length / slant
+    assert np.average(found.thickness) == pytest.approx(across, rel=0.03)
+    assert 0.95 < found.share < 1.05 and np.ptp(found.vertices[:, 2]) > 0.95 * length
+
+
+def test_a_pipe_as_thick_as_it_is_long_has_no_thin_wall():
+    with pytest.raises(InvalidInputError, match="found none"):
+        sheets_of(pipe(32, 1.0, 1.0, 0.5, 0.5), Settings(samples=2000))
+
+
+def test_a_sheet_without_thickness_is_none():
+    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    made = SheetFaces(
+        np.concatenate((square, square + 2)),
+        np.array([0, 4, 7, 10], np.int32),
+        np.array([4, 5, 6, 7, 0, 1, 2, 0, 2, 3], np.int32),
+        np.array([0, 1, 1], np.int32),
+    )
+    left = middle._with_volume(made, np.array([0.0, 0.0, 0.1]))
+    np.testing.assert_array_equal(left.vertices, square)
+    assert left.corners.tolist() == [0, 1, 2, 0, 2, 3] and left.offsets.tolist() == [0, 3, 6]
+    assert left.part.tolist() == [1, 1]
+    assert middle._with_volume(made, np.array([0.1, 0.0, 0.1])) is made
+
+
+def test_more_volume_than_the_solid_has_is_told():
+    (said,) = middle._left_out(1.06, 0.1, 0.01)
+    assert "106 % of the volume" in said
+    assert middle._left_out(1.04, 0.1, 0.01) == ()
+
+
 def test_tips_that_samples_miss_are_told():
     """All of it is thin, so what is missing is not said to be thick."""
     found = sheets_of(star(12, 0.005), Settings(samples=1000))

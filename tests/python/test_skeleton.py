@@ -2,7 +2,6 @@
 """Skeletons: ends and loops of real meshes, centre lines of solids that have known ones, files, bones and weights."""
 
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -949,9 +948,8 @@ def test_edges_that_no_ball_mends_are_counted():
     """A way straight through the hollow and one that is inside: the one is told of, the other is not."""
     net = straight_net(np.array([(-1.0, 0, 0), (1.0, 0, 0), (1.0, 0.01, 0)]))
     assert keep_inside(net, Between()) == 1
-    chosen = SimpleNamespace(thinned="")
-    assert not skeleton_warnings(chosen, Loops(0, 0), 0, 0)
-    (sentence,) = skeleton_warnings(chosen, Loops(0, 0), 0, 1)
+    assert not skeleton_warnings(Loops(0, 0), 0, 0)
+    (sentence,) = skeleton_warnings(Loops(0, 0), 0, 1)
     assert sentence.startswith("1 edges of the skeleton leave the solid")
 
 

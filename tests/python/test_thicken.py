@@ -3,6 +3,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,12 +22,12 @@ from medial_axis.core.settings import (
 )
 from medial_axis.core.solid import thickness
 from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
-from medial_axis.core.solid.thicken import thicken
+from medial_axis.core.solid.thicken import _left_over, thicken
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_in_part import subdivided
 from support import thin_solids, topology
 from support.meshes import read, write_off
-from support.thick_meshes import block, ellipsoid, shell
+from support.thick_meshes import block, ellipsoid, joined, shell
 from support.thin_solids import turned, union
 
 pytestmark = pytest.mark.oracle
@@ -143,6 +144,29 @@ def test_walls_of_a_narrow_slot_do_not_meet(seed):
     gap = measure_thickness(after, Settings(), ThicknessSettings(between=Between.GAP))
     assert 0.002 < gap.minimum < 0.03
     assert not found.left.patches  # the free sides gain what the others may not
+
+
+def spike_over_a_plate():
+    """The tip stands 0.002 over a far place of one of the two triangles of a plate of 0.02."""
+    points, triangles = block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01))
+    spike = np.array([[0.93, 0.93, 0.022], [0.95, 0.93, 0.5], [0.92, 0.95, 0.5], [0.91, 0.91, 0.5]])
+    sides = np.array([[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]])
+    return joined((points, triangles), (spike, sides))
+
+
+def test_faces_never_pass_through_each_other():
+    """The middle of the large triangle has no gap, so only the faces afterwards tell."""
+    blade = block(0.01, 0.6, 0.47, (0.405, 0.5, 0.265))
+    for mesh in (spike_over_a_plate(), joined(block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01)), blade)):
+        found = thickened(mesh, 0.1)
+        assert not len(found.after.shape.crossing)
+        assert found.moves.any() and any("run into each other" in text for text in found.warnings)
+
+
+def test_where_nothing_moves_this_is_said():
+    left = SimpleNamespace(patches=[SimpleNamespace(minimum=0.02)], share=0.5)
+    (said,) = _left_over(left, False)
+    assert "nothing moved, as a step would make more of it thin" in said
 
 
 def test_walls_of_a_wide_slot_get_the_limit():

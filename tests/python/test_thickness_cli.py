@@ -6,6 +6,7 @@ import json
 import re
 import struct
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -35,6 +36,28 @@ def test_exit_code_says_whether_something_is_thin(box, tmp_path, capsys):
     assert said["unit"] == "mm" and len(said["patches"]) == 1
     assert run(box, out, "--limit", 0.41, "--unit", "mm") == cli.THIN, "also of what is kept"
     assert ", kept" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "command, option",
+    [
+        ("thickness", "--limit"),
+        ("thicken", "--limit"),
+        ("thicken", "--blend"),
+        ("hollow", "--wall"),
+        ("hollow", "--voxel-size"),
+        ("midsurface", "--size"),
+    ],
+)
+@pytest.mark.parametrize("length", ["inf", "1e400", "nan"])
+def test_a_length_is_finite(box, tmp_path, capsys, command, option, length):
+    assert cli.main([command, str(box), f"{tmp_path}/", option, length]) == cli.USAGE
+    assert "a finite length of at least 0" in capsys.readouterr().err
+
+
+def test_a_name_of_number_signs_stays_where_there_are_no_frames(box, tmp_path):
+    assert run(Path(box).rename(tmp_path / "####.off"), f"{tmp_path}/out/", "--format", "csv") == cli.DONE
+    assert (tmp_path / "out" / "####.csv").exists()
 
 
 def test_options_reach_the_measurement(box, tmp_path):

@@ -31,7 +31,7 @@ class HollowWork:
         """Accept every result: where nothing can be hollow, computing it fails."""
 
     def write(self, found: Hollow, path: Path, frame: np.ndarray) -> tuple[str, ...]:
-        export_triangles(found.vertices, found.triangles, path, frame)
+        export_triangles(found.vertices, found.triangles, path, frame, found.step)
         return ()
 
     def words(self) -> dict[str, Any]:

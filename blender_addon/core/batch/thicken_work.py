@@ -34,7 +34,7 @@ class ThickenWork:
 
     def write(self, found: Thickened, path: Path, frame: np.ndarray) -> tuple[str, ...]:
         shape = found.after.shape
-        export_triangles(shape.points, shape.triangles, path, frame)
+        export_triangles(shape.points, shape.triangles, path, frame, self.wanted.limit)
         return ()
 
     def words(self) -> dict[str, Any]:

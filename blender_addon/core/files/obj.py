@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
-from .text import open_file
+from .text import open_text
 
 _MOST = 1 << 31  # a file can have at most so many points
 
@@ -26,7 +26,7 @@ def read_obj(path: str | os.PathLike) -> ImportedPoints:
     normals: list[list[float]] = []
     sizes: list[int] = []
     corners: list[int] = []
-    with open_file(path, "r", encoding="latin-1") as stream:
+    with open_text(path) as stream:
         for number, words in _statements(stream):
             try:
                 if words[0] == "v":

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module reads `.off` files: points and polygons as text (docs/formats.md).
+"""This module reads `.off` files: points and polygons, as text or binary (docs/formats.md).
 
 The header is OFF, NOFF, COFF, STOFF or a combination of these.
 """
 
 from __future__ import annotations
 
+import os
 import re
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,8 @@ import numpy as np
 
 from ..errors import ReadError
 from .imported_points import ImportedPoints, are_normals, left_out
-from .text import Lines, Rows
+from .off_binary import read_off_binary
+from .text import Lines, Rows, open_lines
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,9 +23,16 @@ if TYPE_CHECKING:
 _HEADER = re.compile(r"(?:ST|C|N)*OFF")
 
 
-def read_off(lines: Lines) -> ImportedPoints:
+def read_off(path: str | os.PathLike) -> ImportedPoints:
     """Read points, normals and polygons; colours and texture coordinates are ignored."""
-    kind = _read_header(lines)
+    with open_lines(path) as lines:
+        kind = _read_header(lines)
+        if lines.line.split()[:1] != ["BINARY"]:
+            return _read_text(lines, kind)
+    return read_off_binary(path, kind)
+
+
+def _read_text(lines: Lines, kind: str) -> ImportedPoints:
     points, faces = _read_counts(lines)
     rows = lines.rows()
     if points == 0:
@@ -50,10 +59,6 @@ def _read_header(lines: Lines) -> str:
         raise ReadError(
             f"Expected OFF, NOFF, COFF or STOFF in {lines.place()}, found {keyword[:24]!a}; "
             "only OFF files in three dimensions are read"
-        )
-    if rest[:1] == ["BINARY"]:
-        raise ReadError(
-            f"Expected OFF as text, found OFF BINARY in {lines.place()}; save it as text"
         )
     lines.line = " ".join(rest)
     if not rest:

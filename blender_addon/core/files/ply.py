@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
-from .text import Lines, Rows, open_file
+from .text import Lines, Rows, open_file, skip_mark
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -68,6 +68,7 @@ def read_ply(path: str | os.PathLike) -> ImportedPoints:
     """Read positions, normals and faces; everything else is ignored."""
     name = Path(path).name
     with open_file(path) as stream:
+        skip_mark(stream)
         order, elements, lines = _read_header(stream, name)
         body: _Binary | _Text = (
             _Binary(stream.read(), order, name) if order else _Text(stream, lines, name)

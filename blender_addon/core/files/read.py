@@ -29,7 +29,7 @@ def _of_lines(read: Callable[[Lines], ImportedPoints]) -> Callable[[Path], Impor
 READERS: dict[str, Callable[[Path], ImportedPoints]] = {
     ".xyz": _of_lines(read_xyz),
     ".xyzn": _of_lines(read_xyzn),
-    ".off": _of_lines(read_off),
+    ".off": read_off,
     ".ply": read_ply,
     ".obj": read_obj,
     ".stl": read_stl,

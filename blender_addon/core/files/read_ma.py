@@ -12,7 +12,7 @@ import numpy as np
 
 from ..axis.medial_axis import MedialAxis
 from ..errors import ReadError
-from .text import open_file
+from .text import open_file, skip_mark
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,6 +33,7 @@ def read_ma(path: str | os.PathLike) -> MedialAxis:
     """
     name = Path(path).name
     with open_file(path) as stream:
+        skip_mark(stream)
         header, *lines = _lines(stream.read()) or [(1, [])]
     counts = _counts(header, name)
     if len(lines) != sum(counts):

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points lose accuracy in Blender's 32 bits, for example scans with the coordinates of a national grid."""
+"""Points lose accuracy in 32 bits, for example scans with the coordinates of a national grid.
+
+Blender has no more bits, nor has `.stl`.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from ..errors import ExportError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,7 +27,7 @@ def rounding_warning(points: NDArray[np.float64]) -> str | None:
     points : (n, 3) float64
         They must be below the largest float32.
     """
-    moved = float(np.abs(points - points.astype(np.float32)).max(initial=0.0))
+    moved = _moved(points)
     if moved == 0.0:
         return None
     spacing = _spacing(points)
@@ -32,6 +37,39 @@ def rounding_warning(points: NDArray[np.float64]) -> str | None:
         f"Blender keeps coordinates in 32 bits, which moves these points by up to {moved:.2g} while "
         f"neighbours lie {spacing:.2g} apart; subtract a common offset from the coordinates in the file"
     )
+
+
+def check_stl(
+    points: NDArray[np.float64], frame: NDArray[np.float64] | None, length: float
+) -> None:
+    """Check that the 32 bits of `.stl` move no point by a noticeable share of what the result is about.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        They are in the world.
+    frame : (4, 4) float64, optional
+        From the units of `length` to the world.
+    length : float
+        The wall, or what else the points have to show.
+
+    Raises
+    ------
+    ExportError
+    """
+    least = 1.0 if frame is None else float(np.sqrt((frame[:3, :3] ** 2).sum(axis=0)).min())
+    moved = _moved(points)
+    if moved > _NOTICED * length * least:
+        raise ExportError(
+            f"Expected coordinates that fit the 32 bits of .stl, found some that these move by {moved:.2g} where "
+            f"{length * least:.2g} has to show; choose another format, or move the solid nearer to the origin"
+        )
+
+
+def _moved(points: NDArray[np.float64]) -> float:
+    """Return how far 32 bits move a coordinate at most; it is infinite where one is too large for them."""
+    with np.errstate(over="ignore"):
+        return float(np.abs(points - points.astype(np.float32)).max(initial=0.0))
 
 
 def _spacing(points: NDArray[np.float64]) -> float:

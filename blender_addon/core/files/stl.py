@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module reads `.stl` files, which hold triangles as text or binary (docs/formats.md)."""
+"""This module reads `.stl` files, which hold triangles as text or binary (docs/formats.md).
+
+Binary files may begin with the first word of text, and text with anything, so the content decides.
+"""
 
 from __future__ import annotations
 
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +24,8 @@ if TYPE_CHECKING:
 _HEADER = (
     84  # the triangles of a binary file begin after so many bytes; the last four give their number
 )
-_BEGIN = 1024  # so many bytes distinguish text from binary files that begin with the same word
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
+_IS_TEXT = re.compile(rb"(?i)\b(?:solid|facet)\b")
 _VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
 
@@ -31,17 +35,20 @@ def read_stl(path: str | os.PathLike) -> ImportedPoints:
     with open_file(path) as stream:
         data = stream.read()
     count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
-    if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE.itemsize:
+    beyond = len(data) - _HEADER - count * _TRIANGLE.itemsize
+    if len(data) >= _HEADER and beyond >= 0:  # letters in its place make a count that no text is long enough for
         corners = np.frombuffer(data, _TRIANGLE, count, _HEADER)["corners"].reshape(-1, 3)
-    elif data[:_BEGIN].lstrip()[:5].lower() == b"solid" and b"\0" not in data[:_BEGIN]:
-        corners = _read_text(data, name)
+    elif _IS_TEXT.search(data) and b"\0" not in data:
+        corners, beyond = _read_text(data, name), 0
     else:
         raise ReadError(
-            f"Expected 'solid' at the start of '{name}', or {count:,} triangles as its header "
+            f"Expected 'solid' and facets as text in '{name}', or {count:,} triangles as its header "
             f"says, found {len(data):,} bytes; take the file from its source again"
         )
     points, rows = _merged(corners.astype(np.float64))
-    return checked(name, points, None, np.full(len(rows) // 3, 3), rows)
+    found = checked(name, points, None, np.full(len(rows) // 3, 3), rows)
+    left = (f"Left out {beyond:,} bytes after the triangles",) if beyond else ()
+    return replace(found, warnings=found.warnings + left)
 
 
 def _read_text(data: bytes, name: str) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ byte, so every byte is read as a character (Latin-1); numbers are ASCII.
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -14,7 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
 
 import numpy as np
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _CHUNK = 1 << 17  # so many characters are parsed at once; they are few, to stay in the cache
-_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # this is the mark of UTF-8, read as Latin-1
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # this is the mark of UTF-8
 _COMMENT = re.compile(r"(?:#|//).*")
 _BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # bytes.split() splits at these
 
@@ -97,7 +98,7 @@ class Lines:
         self._stream = stream
         self.name = name
         self.number = 1
-        self.line = _COMMENT.sub("", stream.readline().removeprefix(_BYTE_ORDER_MARK))
+        self.line = _COMMENT.sub("", stream.readline())
         if "\0" in self.line:
             raise ReadError(
                 f"Expected text in '{name}', found a binary file or UTF-16; save it as UTF-8 text"
@@ -182,12 +183,12 @@ class Lines:
 
 
 @contextmanager
-def open_file(path: str | os.PathLike, mode: str = "rb", **options: Any) -> Iterator[Any]:
-    """Open a file to read; errors of the system become a ReadError."""
+def open_file(path: str | os.PathLike) -> Iterator[BinaryIO]:
+    """Open a file to read its bytes; errors of the system become a ReadError."""
     if not os.path.isfile(path):
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
     try:
-        with open(path, mode, **options) as stream:
+        with open(path, "rb") as stream:
             yield stream
     except ReadError:
         raise
@@ -199,9 +200,23 @@ def open_file(path: str | os.PathLike, mode: str = "rb", **options: Any) -> Iter
 
 
 @contextmanager
+def open_text(path: str | os.PathLike) -> Iterator[TextIO]:
+    """Open a text file to read its characters, of one byte each, behind the byte order mark if it has one."""
+    with open_file(path) as stream:
+        skip_mark(stream)
+        yield io.TextIOWrapper(stream, encoding="latin-1")
+
+
+def skip_mark(stream: BinaryIO) -> None:
+    """Skip the byte order mark at the beginning of a file, which editors on Windows write before text."""
+    if stream.read(len(_BYTE_ORDER_MARK)) != _BYTE_ORDER_MARK:
+        stream.seek(0)
+
+
+@contextmanager
 def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
     """Open a text file as `Lines`."""
-    with open_file(path, "r", encoding="latin-1") as stream:
+    with open_text(path) as stream:
         yield Lines(stream, Path(path).name)
 
 

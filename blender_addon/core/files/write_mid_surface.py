@@ -18,6 +18,7 @@ from ..small_matrices import placed
 from ..solid.mid_surface import MidSurface
 from ..solid.quad_pairs import least_sines
 from .extensions import extension_of
+from .rounding import check_stl
 from .whole_file import write_whole
 from .write_triangles import write_stl
 
@@ -52,15 +53,19 @@ def export_mid_surface(
     Raises
     ------
     ExportError
-        The extension is unknown, or the system refused to write; an old file is then unchanged.
+        The extension is unknown, `.stl` is too coarse so far from the origin, or the system refused to write; an old
+        file is then unchanged.
     """
     write = MID_SURFACE_FORMATS[extension_of(path, MID_SURFACE_FORMATS)]
     points = found.vertices if frame is None else placed(found.vertices, frame)
+    thick = found.thick if found.thick is not None and len(found.thick.triangles) else None
+    if thick is not None or extension_of(path, MID_SURFACE_FORMATS) == ".stl":
+        check_stl(points, frame, float(np.median(found.thickness)))
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
         write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))
-    if found.thick is not None and len(found.thick.triangles):
-        _write_thick(found.thick, thick_path(written), frame)
+    if thick is not None:
+        _write_thick(thick, thick_path(written), frame)
     return written
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..samples.triangles import unit_normals
 from ..small_matrices import placed
 from .extensions import extension_of
+from .rounding import check_stl
 from .rows_of_text import write_rows
 from .whole_file import write_whole
 
@@ -25,6 +26,7 @@ def export_triangles(
     triangles: NDArray[np.int32],
     path: str | os.PathLike[str],
     frame: NDArray[np.float64],
+    length: float,
 ) -> Path:
     """Write triangles; the extension of `path` chooses the format.
 
@@ -35,6 +37,8 @@ def export_triangles(
     path : path of the file; its folder must exist. A file of that name is replaced.
     frame : (4, 4) float64
         From the points to the world.
+    length : float
+        The wall, or what else the triangles have to show, in the units of the points.
 
     Returns
     -------
@@ -44,10 +48,13 @@ def export_triangles(
     Raises
     ------
     ExportError
-        The extension is unknown, or the system refused to write; an old file is then unchanged.
+        The extension is unknown, `.stl` is too coarse so far from the origin, or the system refused to write; an old
+        file is then unchanged.
     """
-    write = TRIANGLE_FORMATS[extension_of(path, TRIANGLE_FORMATS)]
-    world = placed(points, frame)
+    suffix = extension_of(path, TRIANGLE_FORMATS)
+    write, world = TRIANGLE_FORMATS[suffix], placed(points, frame)
+    if suffix == ".stl":
+        check_stl(world, frame, length)
     return write_whole(path, lambda stream: write(world, triangles, stream))
 
 

@@ -93,10 +93,44 @@ def bounding_share(shape: Shape, spacing: float) -> float:
     spacing : float
         The distance of neighbouring samples, which determines how far from the faces their sides are tested.
     """
-    corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
-    normals, areas = unit_normals(corners)
-    buried, _ = _are_buried(shape, corners.mean(axis=1), normals, _OFF * spacing)
+    areas, buried, _ = sides_of_faces(shape, some_of(len(shape.triangles)), spacing)
     return 1.0 - float(areas[buried].sum() / areas.sum())
+
+
+def outer_share(shape: Shape, spacing: float) -> float:
+    """Return the share of the area that bounds the solid, among the faces that do not lie in it.
+
+    Faces in the solid, as where parts overlap, have the solid at both sides; those of a sheet have nothing at both.
+
+    Parameters
+    ----------
+    shape : Shape
+    spacing : float
+        As in `bounding_share`.
+    """
+    areas, buried, inside = sides_of_faces(shape, some_of(len(shape.triangles)), spacing)
+    outer = float(areas[~inside].sum())
+    return float(areas[~buried].sum()) / outer if outer > 0.0 else 0.0
+
+
+def sides_of_faces(
+    shape: Shape, rows: NDArray[np.intp], spacing: float
+) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
+    """(k,) twice the areas of some faces, whether they bound nothing, and whether that is because they lie in the solid.
+
+    `spacing` is as in `bounding_share`.
+    """
+    corners = shape.points[shape.triangles[rows]]
+    normals, areas = unit_normals(corners)
+    places, off = corners.mean(axis=1), _OFF * spacing
+    buried, _ = _are_buried(shape, places, normals, off)
+    inside, rows = buried.copy(), np.flatnonzero(buried)
+    with native.own_errors() as module:
+        above = module.winding_number(
+            places[rows] + off * normals[rows], shape.points, shape.triangles
+        )
+    inside[rows] = above > 0.5
+    return areas, buried, inside
 
 
 def _are_buried(

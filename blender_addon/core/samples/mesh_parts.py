@@ -11,17 +11,16 @@ import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
-from ..settings import SamplingMode, Side, SidesFrom
+from ..settings import SamplingMode, Settings, Side, SidesFrom
 from .bent_sheets import bent_sheets
 from .check_faces import check_not_flat
 from .outward_faces import OF_SHEETS, TURNED, outward_shape
 from .sample_spacing import first_pass
-from .sides import open_sheet_error, resolve_sides_of_samples
+from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..settings import Settings
     from .shape import Shape
 
 MOST_ROWS = 1000  # of the table of parts
@@ -154,9 +153,10 @@ def _table(
 
 
 def without_sheets(shape: Shape, settings: Settings) -> Shape:
-    """Leave out the connected parts without thickness where the faces decide what is inside only without them.
+    """Leave out the connected parts without thickness, part by part, where open faces decide what is inside.
 
-    `Shape.reading` says which faces were left out. They and their vertices count for nothing.
+    `Shape.reading` says which faces were left out. They and their vertices count for nothing. Where all parts are
+    sheets, none is left out.
 
     Parameters
     ----------
@@ -172,26 +172,30 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     if settings.sampling is SamplingMode.VERTICES:
         return shape
     shape = _without_bent_sheets(shape, settings)
-    if not _is_sheet(shape, settings):
+    if not _open_edges(shape, settings):
         return shape
-    with native.own_errors() as module:
-        part, _, place = module.part_places(shape.points, shape.triangles)
-    of_sheets = (place == Place.SHEET)[part] & (part >= 0)
-    if not of_sheets.any() or (of_sheets | (part < 0)).all():
+    part, is_open = shape.connected
+    if len(is_open) < 2:
         return shape
-    found = _leave_out(shape, of_sheets)
-    return shape if _is_sheet(found, settings) else found
+    spacing = first_pass(shape, settings).spacing
+    of_sheets = (part >= 0) & are_sheets(shape, part, is_open, spacing)[part]
+    return shape if (of_sheets | (part < 0)).all() else _leave_out(shape, of_sheets)
+
+
+def check_no_sheet(shape: Shape) -> None:
+    """Raise DegenerateInputError where faces, which look outward, are those of open sheets and of nothing else."""
+    plain = Settings()
+    if gaps := _open_edges(shape, plain):
+        check_not_flat(shape)
+        if _are_of_bent_sheets(shape)[1] or _is_sheet(without_sheets(shape, plain), plain):
+            raise open_sheet_error(gaps, of_axis=False)
 
 
 def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
     if not (gaps := _open_edges(shape, settings)):
         return shape
-    with native.own_errors() as module:
-        part, _, _ = module.mesh_parts(shape.points, shape.triangles)
-    of_sheets = bent_sheets(shape, part, int(part.max(initial=-1)) + 1)[part] & (part >= 0)
-    if not of_sheets.any():
-        return shape
-    if not (of_sheets | (part < 0)).all():
+    of_sheets, are_all = _are_of_bent_sheets(shape)
+    if not are_all:
         return _leave_out(shape, of_sheets)
     if settings.side is Side.BOTH:
         return shape
@@ -199,7 +203,16 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
     raise open_sheet_error(gaps)
 
 
+def _are_of_bent_sheets(shape: Shape) -> tuple[NDArray[np.bool_], bool]:
+    """(m,) mark the faces of bent sheets, and whether these are all that count for something."""
+    part, is_open = shape.connected
+    found = bent_sheets(shape, part, len(is_open))[part] & (part >= 0)
+    return found, bool(found.any() and (found | (part < 0)).all())
+
+
 def _leave_out(shape: Shape, of_sheets: NDArray[np.bool_]) -> Shape:
+    if not of_sheets.any():
+        return shape
     triangles = np.where(of_sheets[:, None], shape.triangles[:, :1], shape.triangles)
     reading = np.zeros(len(shape.triangles), np.uint8) if shape.reading is None else shape.reading
     reading = np.where(of_sheets, np.uint8(OF_SHEETS), reading)

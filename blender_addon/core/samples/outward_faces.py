@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import DegenerateInputError
 from ..machine import native
+from .repeated_faces import repeats_of_bodies
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -30,14 +32,32 @@ def outward_shape(shape: Shape) -> Shape:
     ------
     InvalidInputError
         A corner is no row of the points, or a coordinate is not finite.
+    DegenerateInputError
+        There are faces, and each of them has two corners in one place.
     """
     if not len(shape.triangles) or shape.reading is not None:
         return shape
     with native.own_errors() as module:
         triangles, reading, _, _ = module.outward_faces(shape.points, shape.triangles)
+        again = repeats_of_bodies(shape.points, shape.triangles)
+        if again.any():
+            once = np.where(again[:, None], shape.triangles[:, :1], shape.triangles)
+            triangles, reading, _, _ = module.outward_faces(shape.points, once)
+            reading = np.where(again, np.uint8(REPEATED), reading)
     if not reading.any():
+        _check_corners(shape)
         return replace(shape, reading=reading)
     return replace(shape, triangles=triangles, reading=reading)
+
+
+def _check_corners(shape: Shape) -> None:
+    """Check that some face has three corners in three places."""
+    corners = shape.points[shape.triangles]
+    if (corners == np.roll(corners, 1, axis=1)).all(axis=2).any(axis=1).all():
+        raise DegenerateInputError(
+            f"Expected faces with three corners in three places, found {len(corners):,} without; rebuild the faces, or "
+            "give the points alone"
+        )
 
 
 def reading_counts(shape: Shape) -> dict[str, int]:

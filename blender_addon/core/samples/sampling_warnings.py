@@ -48,12 +48,17 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             "more samples, a smaller Spacing or a larger Budget help"
         )
     if chosen.differs:
-        yield _crossing(shape) if len(shape.crossing) else _differs(chosen)
+        yield differs_warning(shape, chosen)
     if density.share > _SPARSE and not _confirmed_by_faces(chosen) and not is_noisy(chosen.scan):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )
+
+
+def differs_warning(shape: Shape, chosen: ChosenSamples) -> str:
+    """Say that the samples have another topology than the faces, and why."""
+    return _crossing(shape) if len(shape.crossing) else _differs(chosen)
 
 
 def _crossing(shape: Shape) -> str:

@@ -84,6 +84,22 @@ class Shape:
             return module.solid_betti(self.points, self.triangles)
 
     @cached_property
+    def connected(self) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+        """(m,) the connected part of each face, -1 for faces without three corners, and whether each part is open."""
+        with native.own_errors() as module:
+            part, is_open, _ = module.mesh_parts(self.points, self.triangles)
+        return part, is_open
+
+    @cached_property
+    def shells(self) -> tuple[int, int]:
+        """The number of connected parts of the faces, and of those that are closed and look inward."""
+        part, is_open = self.connected
+        corners = (self.points - self.points[0])[self.triangles[part >= 0]]
+        six = dot(corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+        volumes = np.bincount(part[part >= 0], six, len(is_open))
+        return len(is_open), int(np.count_nonzero((volumes < 0.0) & ~is_open))
+
+    @cached_property
     def crossing(self) -> NDArray[np.int32]:
         """(k, 2) pairs of faces that pass through each other; not all of them where very many faces are thin."""
         with native.own_errors() as module:

@@ -14,8 +14,9 @@ from ..settings import Side, SidesFrom
 from ..severe import Severe
 from ..small_matrices import dot
 from .analysed import Sides
-from .buried_samples import bounding_share
+from .buried_samples import outer_share, sides_of_faces
 from .nearness import same_place
+from .triangles import some_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,7 +30,7 @@ _WIDE = 10.0
 # Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
 _TURNED = 0.01
 _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
-# Where a smaller share of the faces bounds the solid, the faces are a sheet: half of a wavy sheet bounds it.
+# Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a wavy sheet does.
 _BOUNDING = 0.75
 
 
@@ -71,8 +72,8 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     """Do the same as `resolve_sides` for samples of faces, which have the normals of the faces.
 
     The solid of an open mesh is the region where its winding number is above one half, provided that most of the faces
-    bound this region. The faces of a sheet do not; there the votes of the normals determine what lies behind it, which
-    `check_not_a_sheet` takes only for an axis of both sides.
+    outside of this region's interior bound it. The faces of a sheet do not; there the votes of the normals determine
+    what lies behind it, which `check_not_a_sheet` takes only for an axis of both sides.
 
     Parameters
     ----------
@@ -87,7 +88,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         return Sides(wanted, "as chosen", is_chosen=True)
     if gaps == 0:
         return Sides(SidesFrom.SURFACE, "the faces are closed")
-    if bounding_share(shape, spacing) >= _BOUNDING:
+    if outer_share(shape, spacing) >= _BOUNDING:
         reason = f"the winding number of the faces, for the mesh is open at {gaps:,} edges"
         return Sides(SidesFrom.SURFACE, reason)
     if _turned(shape.points, shape.triangles) > _TURNED:
@@ -96,6 +97,31 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         )
         return Sides(SidesFrom.TIGHT_COCONE, reason)
     return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
+
+
+def are_sheets(
+    shape: Shape, part: NDArray[np.int32], is_open: NDArray[np.bool_], spacing: float
+) -> NDArray[np.bool_]:
+    """(count,) mark the connected parts that are sheets among all others.
+
+    Parameters
+    ----------
+    shape : Shape
+    part : (m,) int32
+        The part of each face; -1 for none.
+    is_open : (count,) bool
+        Of each part. An open part that lies in the solid bounds nothing, and a closed one there does no harm.
+    spacing : float
+        The distance of neighbouring samples.
+    """
+    count = len(is_open)
+    rows = np.flatnonzero(part >= 0)
+    rows = rows[some_of(len(rows))]
+    areas, buried, inside = sides_of_faces(shape, rows, spacing)
+    outer, bounding, every = (
+        np.bincount(part[rows], areas * counts, count) for counts in (~inside, ~buried, True)
+    )
+    return (every > 0.0) & np.where(outer > 0.0, bounding < _BOUNDING * outer, is_open)
 
 
 def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
@@ -113,8 +139,13 @@ def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
         raise open_sheet_error(gaps)
 
 
-def open_sheet_error(gaps: int) -> DegenerateInputError:
-    """Return the error for faces that are open at `gaps` edges and bound no solid."""
+def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
+    """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
+    if not of_axis:
+        return DegenerateInputError(
+            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
+            "Solidify modifier)"
+        )
     return DegenerateInputError(
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
         "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"

@@ -12,6 +12,7 @@ from ..errors import DegenerateInputError
 from ..machine import native
 from .buried_samples import find_bare, on_flat_faces
 from .sample_spacing import mean_spacing
+from .triangles import unit_normals
 from .walls import Places
 
 if TYPE_CHECKING:
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
 # The radius of a sample's disc, in spacings.
 _DISC = 0.727
+# A cell of four samples may have its centre outside of them; a dozen on a closed surface have a cell with its centre
+# inside.
+_OF_SHELL = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,14 +94,10 @@ def sample_faces(
     """
     all_rows = np.arange(len(shape.triangles), dtype=np.int64)
     rows = shape.unfolded if options["pairs"] else all_rows
-    with native.own_errors() as module:
-        found = module.sample_surface(
-            shape.points,
-            shape.triangles[rows],
-            sharp_edges=shape.sharp_edges,
-            progress=progress,
-            **options,
-        )
+    found = _sampled(shape, rows, options, progress)
+    more = _of_small_shells(shape, rows, found, options)
+    if more is not None:
+        found = _sampled(shape, rows, more, progress)
     spacing = mean_spacing(found.area, max(1, len(found.points)))
     faces = rows[found.triangle].astype(np.int32)
     feet, outward = on_flat_faces(shape, found, faces, spacing)
@@ -129,6 +129,49 @@ def sample_faces(
         ),
         partners=_of_rows(found.partner, bare),
     )
+
+
+def _sampled(
+    shape: Shape, rows: NDArray[np.int64], options: dict[str, Any], progress: Any
+) -> Any:
+    with native.own_errors() as module:
+        return module.sample_surface(
+            shape.points,
+            shape.triangles[rows],
+            sharp_edges=shape.sharp_edges,
+            progress=progress,
+            **options,
+        )
+
+
+def _of_small_shells(
+    shape: Shape, rows: NDArray[np.int64], found: Any, options: dict[str, Any]
+) -> dict[str, Any] | None:
+    """Return the options with which no shell has less than `_OF_SHELL` samples; None where none has, or too many have.
+
+    Fewer samples may show no cell on the other side of a shell, so a small cavity would be lost.
+    """
+    part, is_open = shape.connected
+    part, count = part[rows], len(is_open)
+    few = np.bincount(part[found.triangle], minlength=count) < _OF_SHELL
+    if not few.any() or _OF_SHELL * np.count_nonzero(few) > len(found.points):
+        return None
+    small = np.flatnonzero(few[part] & (part >= 0))
+    corners = shape.points[shape.triangles[rows[small]]]
+    area = np.bincount(part[small], unit_normals(corners)[1] / 2.0, count)
+    seen = area[part[small]] > 0.0
+    if not seen.any():
+        return None
+    small, corners = small[seen], corners[seen]
+    spacing = mean_spacing(found.area, max(1, len(found.points)))
+    wanted = np.array([mean_spacing(area[shell], _OF_SHELL) for shell in part[small]])
+    sites, spacings = options.get("sizing", (found.points, np.full(len(found.points), spacing)))
+    sizing = (
+        np.concatenate((sites, corners.mean(axis=1))),
+        np.concatenate((spacings, np.minimum(spacing, wanted))),
+    )
+    left = () if "sizing" in options else ("count", "spacing")
+    return {**{name: options[name] for name in options if name not in left}, "sizing": sizing}
 
 
 def are_paired(partners: NDArray[np.int32]) -> NDArray[np.bool_]:

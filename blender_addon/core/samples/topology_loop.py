@@ -121,10 +121,10 @@ def closes(request: Request, sides: Sides) -> bool:
 
 def are_close(samples: AnalysedSamples) -> bool:
     """Whether the axis is missing between walls that are close."""
-    return not _overlaps(samples) and samples.walls is not None and samples.walls.are_missed
+    return not overlaps(samples) and samples.walls is not None and samples.walls.are_missed
 
 
-def _overlaps(samples: AnalysedSamples) -> bool:
+def overlaps(samples: AnalysedSamples) -> bool:
     """Whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
     return samples.buried > _BURIED * len(samples.points)
 
@@ -149,7 +149,7 @@ def closed(
     closed : Closed or None
         None: the samples are right as they are.
     """
-    if _overlaps(before):
+    if overlaps(before):
         return None
     close = are_close(before)
     start = _first_trial(request, before, close)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..axis.detail import net_with_detail
 from ..axis.levels import hierarchy_of
+from ..axis.solid_warnings import solid_warnings
 from ..curves.depth import Depth
 from ..curves.ends import end_limbs
 from ..curves.loaded_net import genuine_loops, loaded_net
@@ -22,7 +23,6 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.nearness import nearest
-from ..samples.outward_faces import reading_warnings
 from ..settings import KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
@@ -124,9 +124,11 @@ def compute_skeleton(
     )
     chosen = begun.chosen
     if shown is None or ends is not None:
-        net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
+        net, owner, level, loops = _net(chosen, settings, wanted, begun.progress, ends)
     else:
-        net, owner, sheets, loops = _net_of_curve(chosen, shown, wanted, begun.progress)
+        net, owner, level, loops = _net_of_curve(chosen, shown, wanted, begun.progress)
+    wraps = settings.sides is SidesFrom.WRAP
+    decided = SidesFrom.WRAP if wraps else chosen.sides.source
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
     lead_through_middle(net, depth)
@@ -149,8 +151,8 @@ def compute_skeleton(
         outside=outside,
         chosen=chosen,
         warnings=(
-            *reading_warnings(begun.shape),
-            *skeleton_warnings(chosen, loops, sheets, outside),
+            *solid_warnings(begun.shape, Side.INNER, decided, chosen, tuple(level.betti)),
+            *skeleton_warnings(loops, len(level.generators), outside),
         ),
         seconds=begun.seconds,
     )
@@ -172,8 +174,8 @@ def _net(
     wanted: SkeletonSettings,
     progress: Progress,
     ends: NDArray[np.float64] | None,
-) -> tuple[Net, NDArray[np.int64], int, Loops]:
-    """Return the net of limbs, the owner of each sample, the number of facets without a curve, and cleared loops."""
+) -> tuple[Net, NDArray[np.int64], Any, Loops]:
+    """Return the net of limbs, the owner of each sample, the level that they are of, and cleared loops."""
     samples = chosen.samples
     # Curves are fitted to samples, so no place is crisp.
     level, hierarchy = _curve(samples, replace(settings, crisp=False), wanted.limb, progress)
@@ -188,18 +190,18 @@ def _net(
     else:
         tips = join_ends(net, net.stands_for()[owner[nearest(ends, samples.points)]])
     owner = _drawn(loaded, wanted, samples, tips)
-    return net, owner, len(level.generators), loops
+    return net, owner, level, loops
 
 
 def _net_of_curve(
     chosen: ChosenSamples, shown: Settings, wanted: SkeletonSettings, progress: Progress
-) -> tuple[Net, NDArray[np.int64], int, Loops]:
+) -> tuple[Net, NDArray[np.int64], Any, Loops]:
     """Return what `_net` does, with the loops and branches of a curve with some detail."""
     samples = chosen.samples
     level, hierarchy = _curve(samples, shown, shown.limb / 100, progress)
     loaded, loops = net_with_detail(level, hierarchy, samples, shown.detail)
     owner = _drawn(loaded, wanted, samples, None)
-    return loaded.net, owner, len(level.generators), loops
+    return loaded.net, owner, level, loops
 
 
 def _drawn(

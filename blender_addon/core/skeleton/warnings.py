@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..curves.rules import Loops
-    from ..samples.chosen import ChosenSamples
 
 
-def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int, outside: int) -> list[str]:
+def skeleton_warnings(loops: Loops, sheets: int, outside: int) -> list[str]:
     """Return the warnings, the most important first.
 
     Parameters
     ----------
-    chosen : ChosenSamples
     loops : Loops
         They count the small loops that were cut and filled.
     sheets : int
@@ -24,8 +22,6 @@ def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int, outside:
         The number of edges that leave the solid.
     """
     found = []
-    if chosen.thinned:
-        found.append(chosen.thinned)
     if sheets:
         found.append(
             f"{sheets:,} facets of the axis are closed sheets round cavities, which have no curve; fill the cavities"

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from ..samples.shape import Shape
 
-_MOSTLY = 0.95  # of the volume has to be sheet, so that no more than bridges is missing
+_MOSTLY = 0.95  # of the volume, in thickness, too, has to be sheet, so that no more than bridges is missing
 _ALONG = 0.999  # the cosine between normals that may be those of one flat face
 _FLAT = 1e-3  # of the thickness: so flat are flat faces; of their area: so much may be amiss
 
@@ -48,11 +48,17 @@ def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
     if not float(volumes.sum()) >= _MOSTLY * shape.volume > 0.0:
         return None
     largest = sheets.part == np.bincount(sheets.part, volumes).argmax()
-    return _plate(shape, _direction(normals[largest], doubled[largest]))
+    mean = (normals * doubled[:, None])[largest].sum(axis=0) / doubled[largest].sum()
+    if length_of(mean) < _ALONG:  # a curved sheet, of which no plate has one; that of a pipe has no mean normal
+        return None
+    thickness = float(volumes[largest].sum() / (0.5 * doubled[largest].sum()))
+    return _plate(shape, mean, thickness)
 
 
-def _plate(shape: Shape, across: NDArray[np.float64]) -> CarriedSheets | None:
-    """The middle of a plate whose flat faces look along a unit vector, about, and against it."""
+def _plate(
+    shape: Shape, across: NDArray[np.float64], thickness: float
+) -> CarriedSheets | None:
+    """The middle of a plate of about a thickness, whose flat faces look along a vector, about, and against it."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     turned = dot(normals, across[None])
     flat = np.where(np.abs(turned) > _ALONG, np.sign(turned), 0.0)
@@ -64,6 +70,8 @@ def _plate(shape: Shape, across: NDArray[np.float64]) -> CarriedSheets | None:
         return None
     high, low = float(top.mean()), float(bottom.mean())
     within = _FLAT * (high - low)
+    if not _MOSTLY * thickness <= high - low <= thickness / _MOSTLY:
+        return None  # the sheets are walls that stand upright
     if max(np.ptp(top), np.ptp(bottom)) > within or not _is_plate(shape, across, flat, high - low):
         return None
     # Triangles without an area have no normal, and those in the flat face keep its others together.

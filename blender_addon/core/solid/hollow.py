@@ -13,6 +13,7 @@ from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
 from ..samples.buried_samples import bounding_share
+from ..samples.mesh_parts import check_no_sheet
 from ..samples.outward_faces import are_left_out, outward_shape, reading_warnings
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
@@ -26,8 +27,10 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
 
 _FINEST = 0.25  # of the wall: the step of the lattice where nothing else is asked for
-_SQUARES = 150_000  # the step grows until the faces have the area of so many of its squares
-_MOST = 2_000_000  # more squares are refused: each gives about twelve triangles
+# The step grows until the faces have the area of so many of its squares, which take about ten seconds.
+_SQUARES = 75_000
+_MOST = 2_000_000  # so many are made where a step is asked for: each gives about twelve triangles
+_ROUNDED_UP = 1.05  # times it, a length with two digits is not less than it was
 _BOUNDING = 0.999  # where less of the faces bounds the solid, a warning says so
 
 
@@ -45,6 +48,8 @@ class Hollow(TriangleFaces):
         So many triangles are those of the shape.
     wall : float
         The wall that was asked for.
+    step : float
+        The edge of the cubes of the lattice.
     least : float
         Nowhere is the wall thinner: a bound, not a measurement.
     deepest : float
@@ -52,6 +57,9 @@ class Hollow(TriangleFaces):
     volume, solid_volume : float
         Of what is left, and of the solid before.
     cavities : int
+        The connected spaces in the solid.
+    loose : int
+        The walls that are not connected with the outer one: those round cavities that the solid had.
     shape : Shape
     points, duplicates : int
     warnings : tuple of str
@@ -62,11 +70,13 @@ class Hollow(TriangleFaces):
     triangles: NDArray[np.int32]
     outer: int
     wall: float
+    step: float
     least: float
     deepest: float
     volume: float
     solid_volume: float
     cavities: int
+    loose: int
     shape: Shape
     warnings: tuple[str, ...]
     seconds: float
@@ -97,6 +107,8 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     ------
     InvalidInputError
         The wall is not above 0, the faces do not enclose a solid, or no place in it is so far from them.
+    DegenerateInputError
+        The faces are an open sheet.
     NativeModuleError, OutOfMemoryError, Cancelled
     """
     start, progress = time.perf_counter(), progress or Progress()
@@ -107,8 +119,8 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     surface = _surface(shape.points, faces, wanted.wall, step, progress)
     if not len(surface.triangles):
         raise InvalidInputError(
-            f"Expected a solid that is thicker than two walls of {wanted.wall:g} somewhere, found none; take a thinner "
-            "wall, or keep it solid"
+            f"Expected a solid that is thicker than two walls of {wanted.wall:g} by more than a voxel of {step:.2g} "
+            "somewhere, found none; take a thinner wall or smaller voxels, or keep it solid"
         )
     return _shell(shape, faces, surface, wanted.wall, step, progress, start)
 
@@ -119,6 +131,7 @@ def _check(shape: Shape, wanted: HollowSettings) -> None:
     with own_errors() as module:
         gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 1
     if gaps or not shape.volume > 0.0:
+        check_no_sheet(shape)
         raise InvalidInputError(
             "Expected closed faces that enclose a solid, found none or open ones; close the mesh, or reconstruct its "
             "surface, then hollow it"
@@ -127,14 +140,19 @@ def _check(shape: Shape, wanted: HollowSettings) -> None:
 
 def _step(shape: Shape, wanted: HollowSettings) -> float:
     """The edge of the cubes of the lattice."""
-    step = wanted.voxel_size
-    if step == 0.0:
-        step = max(_FINEST * wanted.wall, (shape.area / _SQUARES) ** 0.5)
+    chosen = wanted.voxel_size > 0.0
+    finest = (shape.area / (_MOST if chosen else _SQUARES)) ** 0.5
+    step = wanted.voxel_size if chosen else max(_FINEST * wanted.wall, finest)
     step = min(step, COARSEST * wanted.wall)
-    finest = (shape.area / _MOST) ** 0.5
     if step < finest:
+        least = _ROUNDED_UP * finest
+        if not chosen:
+            raise InvalidInputError(
+                f"Expected a wall of at least {least / COARSEST:.2g} for a surface of this size, found "
+                f"{wanted.wall:g}, which takes minutes; take a thicker wall, or set Voxel Size to {step:.2g} and wait"
+            )
         raise InvalidInputError(
-            f"Expected a wall of at least {finest / COARSEST:.2g}, or voxels of {finest:.2g}, for a surface of this "
+            f"Expected a wall of at least {least / COARSEST:.2g}, or voxels of {least:.2g}, for a surface of this "
             f"size, found {wanted.wall:g} and {step:.2g}; take a thicker wall or larger voxels"
         )
     return step
@@ -177,26 +195,28 @@ def _shell(
     middles = surface.vertices[surface.triangles].mean(axis=1)
     with own_errors() as module:
         depths = module.surface_distances(middles, shape.points, faces, progress=progress.part())
-    taken = _volume(surface)
-    label = united(len(surface.vertices), surface.triangles[:, [0, 1, 1, 2]].reshape(-1, 2))
-    cavities = len(np.unique(label))
+    volumes = _volumes(surface)
+    # A space has one surface round it, and one more round each wall that stands in it.
+    cavities, loose = int((volumes > 0.0).sum()), int((volumes < 0.0).sum())
     return Hollow(
         np.concatenate((shape.points, surface.vertices)),
         np.concatenate((faces, inner)),
         len(faces),
         wall,
+        step,
         float(least_distances(surface).min()),
         float(np.max(depths)),
-        shape.volume - taken,
+        shape.volume - float(volumes.sum()),
         shape.volume,
         cavities,
+        loose,
         shape,
-        (*reading_warnings(shape), *_warnings(shape, cavities, step)),
+        (*reading_warnings(shape), *_warnings(shape, cavities, loose, step)),
         time.perf_counter() - start,
     )
 
 
-def _warnings(shape: Shape, cavities: int, step: float) -> tuple[str, ...]:
+def _warnings(shape: Shape, cavities: int, loose: int, step: float) -> tuple[str, ...]:
     found = []
     if bounding_share(shape, step) < _BOUNDING:
         found.append(
@@ -206,6 +226,11 @@ def _warnings(shape: Shape, cavities: int, step: float) -> tuple[str, ...]:
     if cavities > 1:
         found.append(
             f"the solid is hollow in {cavities:,} places that are not connected; a hole drains one of them"
+        )
+    if loose:
+        found.append(
+            f"walls round cavities that the solid had lie loose in the hollow, {loose:,} in all; fill these cavities "
+            "first, or join the walls by bars"
         )
     return tuple(found)
 
@@ -228,6 +253,9 @@ def least_distances(surface: OffsetSurface) -> NDArray[np.float64]:
     return np.sqrt(np.maximum(near * near - radius * radius, 0.0))
 
 
-def _volume(surface: OffsetSurface) -> float:
+def _volumes(surface: OffsetSurface) -> NDArray[np.float64]:
+    """(k,) the volume in each connected part of the surface, negative where the hollow is outside of it."""
+    label = united(len(surface.vertices), surface.triangles[:, [0, 1, 1, 2]].reshape(-1, 2))
+    _, part = np.unique(label[surface.triangles[:, 0]], return_inverse=True)
     a, b, c = (surface.vertices[surface.triangles[:, i]] - surface.vertices[0] for i in range(3))
-    return float(dot(a, np.cross(b, c)).sum()) / 6
+    return np.asarray(np.bincount(part.reshape(-1), dot(a, np.cross(b, c))), np.float64) / 6

@@ -60,6 +60,7 @@ _CURVED = (
 _TRIANGLES = 4.0 / 3.0**0.5  # equilateral triangles for an area of one squared edge
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
+_DOUBLED = 1.05  # where they have more than this of it, one does, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,29 +257,25 @@ def _with_thickness(
     keep_thick: bool,
     start: float,
 ) -> MidSurface:
-    triangles, of = made.triangles, made.of
-    areas = 0.5 * unit_normals(made.vertices[triangles])[1]
-    whole = np.asarray(np.bincount(of, areas, len(made.part)), np.float64)
-    middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
-    sums = [np.bincount(of, column, len(made.part)) for column in middles.T]
-    centre = np.column_stack(sums).astype(np.float64)
-    centre /= np.where(whole > 0.0, whole, 1.0)[:, None]
     lengths = _lengths(sheets, thin.parts)
-    thickness = lengths(centre, made.part)
+    made = _with_volume(made, lengths(_centres(made)[0], made.part))
+    centre, whole = _centres(made)
+    triangles, thickness = made.triangles, lengths(centre, made.part)
     corner_part = np.repeat(made.part, np.diff(made.offsets))
     of_vertices = np.zeros(len(made.vertices))
     np.maximum.at(of_vertices, made.corners, lengths(made.vertices[made.corners], corner_part))
     share = float((whole * thickness).sum()) / shape.volume if shape.volume > 0.0 else float("nan")
     spacing = mean_spacing(shape.area, len(found.chosen.samples.points))
     left_out = _left_out(share, float(thickness.min()), spacing)
+    numbers, part = np.unique(made.part, return_inverse=True)
     return MidSurface(
         made.vertices,
         made.offsets,
         made.corners,
-        made.part,
+        part.reshape(-1).astype(np.int32),
         thickness,
         of_vertices,
-        thin.parts,
+        len(numbers),
         share,
         thick_faces(shape, made, lengths) if keep_thick else None,
         shape,
@@ -288,7 +285,39 @@ def _with_thickness(
     )
 
 
+def _centres(made: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(f, 3) the middle of each face, and (f,) its area."""
+    count, triangles = len(made.part), made.triangles
+    areas = 0.5 * unit_normals(made.vertices[triangles])[1]
+    whole = np.asarray(np.bincount(made.of, areas, count), np.float64)
+    middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
+    sums = [np.bincount(made.of, column, count) for column in middles.T]
+    centre = np.column_stack(sums).astype(np.float64)
+    return centre / np.where(whole > 0.0, whole, 1.0)[:, None], whole
+
+
+def _with_volume(made: SheetFaces, thickness: NDArray[np.float64]) -> SheetFaces:
+    """The faces without sheets that have no thickness anywhere: crumbs of rims that lie in the surface of the solid."""
+    thick = np.zeros(int(made.part.max()) + 1, bool)
+    thick[made.part[thickness > 0.0]] = True
+    kept = thick[made.part]
+    if kept.all() or not kept.any():
+        return made
+    sizes = np.diff(made.offsets)
+    used, corners = np.unique(made.corners[np.repeat(kept, sizes)], return_inverse=True)
+    offsets = np.concatenate(([0], np.cumsum(sizes[kept]))).astype(np.int32)
+    return SheetFaces(
+        made.vertices[used], offsets, corners.reshape(-1).astype(np.int32), made.part[kept]
+    )
+
+
 def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
+    """A sentence where area times thickness is not the volume."""
+    if share > _DOUBLED:
+        return (
+            f"the sheets have {percent(share)} of the volume: where walls meet, both count, but some may also lie twice "
+            "or not in the middle; more samples may help",
+        )
     if share >= _MOST:
         return ()
     if least >= spacing:

@@ -20,6 +20,7 @@ from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..samples.density import percent
+from ..samples.mesh_parts import check_no_sheet
 from ..samples.outward_faces import outward_shape
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
@@ -43,6 +44,7 @@ _ROUNDS = 8  # at most; two or three suffice where walls are not much curved
 _HALVES = 2  # so many rounds give each of two walls half
 _OF_GAP = 0.45  # the share of a gap that a wall may take: the opposite wall takes as much
 _BEYOND = 1e-4  # walls gain this share of the limit more, so that few rounds leave none below it
+_HALVINGS = 5  # of the way of faces that would pass through others, before they stay
 _FARTHEST = 3.0  # times the largest gain: no vertex moves farther
 _CROSSED = (
     "walls would run into each other where they gained all that they lack, so they gained less"
@@ -123,10 +125,12 @@ def thicken(
 
     before = measured(shape, Edges.EXTRAPOLATE)
     walls = _Walls(before, settings, wanted, selected)
-    moves, crossed = _settled(walls, settings, wanted, measured, progress)
+    moves, overlap = _settled(walls, settings, wanted, measured, progress)
+    moves, crossed = walls.without_crossings(moves)
     after = measured(walls.shape_of(moves), Edges.EXTRAPOLATE)
     left = find_thin_parts(after, wanted.limit)
-    warnings = (*walls.warnings(), *([_CROSSED] if crossed else ()), *_left_over(left))
+    told = [_CROSSED] if crossed or overlap else []
+    warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()) or crossed))
     seconds = time.perf_counter() - start
     return Thickened(moves, before, after, left, walls.narrowest, warnings, seconds)
 
@@ -138,7 +142,7 @@ def _settled(
     measured: Callable[[Shape, Edges], Measurement],
     progress: Progress,
 ) -> tuple[NDArray[np.float64], bool]:
-    """(v, 3) the moves after which nothing lacks or no round helps, and whether farther ones would make walls cross."""
+    """(v, 3) the moves after which nothing lacks or no round helps, and whether farther ones make walls overlap."""
     moves = last = np.zeros_like(walls.points)
     best = walls.missing
     for number in range(1, _ROUNDS + 1):
@@ -147,7 +151,9 @@ def _settled(
         edges = Edges.GREY if number == 1 else Edges.EXTRAPOLATE
         moved = walls.shape_of(moves)
         if number > 1 and not are_enough(moved, settings, _asked(wanted, edges)):
-            return last, True
+            moves, _ = walls.without_crossings(moves)
+            apart = are_enough(walls.shape_of(moves), settings, _asked(wanted, edges))
+            return moves if apart else last, True
         found = measured(moved, edges)
         if number == 1:
             _check_size(found, wanted.limit)
@@ -168,8 +174,9 @@ def _asked(wanted: ThickenSettings, edges: Edges) -> ThicknessSettings:
 
 
 def _check_faces(shape: Shape, settings: Settings, wanted: ThickenSettings) -> None:
-    """Raise InvalidInputError where the faces do not bound a solid by themselves."""
+    """Raise InvalidInputError where the faces do not bound a solid by themselves, DegenerateInputError of a sheet."""
     if not are_enough(shape, settings, _asked(wanted, Edges.EXTRAPOLATE)):
+        check_no_sheet(shape)
         raise InvalidInputError(
             "Expected closed faces that bound one solid, found faces that are open, overlap or lie inside it; close "
             "the mesh or remesh it, then thicken it"
@@ -192,9 +199,14 @@ def _missing(found: Measurement, limit: float) -> float:
     return float((lack * found.areas).sum())
 
 
-def _left_over(left: ThinParts) -> tuple[str, ...]:
+def _left_over(left: ThinParts, moved: bool) -> tuple[str, ...]:
     if not left.patches:
         return ()
+    if not moved:
+        return (
+            f"{percent(left.share)} of the surface is still thinner than the limit, down to "
+            f"{left.patches[0].minimum:.3g}: nothing moved, as a step would make more of it thin; take a smaller limit",
+        )
     return (
         f"{percent(left.share)} of the surface is still thinner than the limit, down to "
         f"{left.patches[0].minimum:.3g}: tips and edges that taper stay, and coarse faces need a subdivision",
@@ -319,6 +331,29 @@ class _Walls:
                 normals=-unit_normals(corners)[0],
             )
         np.minimum.at(self._most, self._fans.of_corners[rows], _OF_GAP * gap[:, None])
+
+    def without_crossings(
+        self, moves: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], bool]:
+        """(v, 3) the moves, less where faces would pass through each other, and whether any would.
+
+        Corners of such faces go half as far, and half of that, and at last nowhere: then the faces are as they were.
+        """
+        known = self._pairs(self._shape)
+        share, number = np.ones(len(moves)), 0
+        while True:
+            moved = moves * share[self._row, None]
+            pairs = np.setdiff1d(self._pairs(self.shape_of(moved)), known)
+            if not len(pairs):
+                return moved, number > 0
+            number += 1
+            rows = self._triangles[np.concatenate(np.divmod(pairs, len(self._triangles)))]
+            share[np.unique(rows)] *= 0.5 if number <= _HALVINGS else 0.0
+
+    def _pairs(self, shape: Shape) -> NDArray[np.int64]:
+        """(p,) a number for each pair of faces that pass through each other."""
+        low, high = shape.crossing.astype(np.int64).T
+        return np.asarray(low * len(self._triangles) + high)
 
     def _without_turns(
         self, points: NDArray[np.float64], step: NDArray[np.float64]

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Open faces bound a solid where the volume says so: parts that overlap, faces that stand twice, sheets beside bodies."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.errors import DegenerateInputError
+from medial_axis.core.samples.outward_faces import REPEATED, outward_shape
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import HollowSettings, Settings, SidesFrom, ThickenSettings
+from medial_axis.core.solid.hollow import hollow
+from medial_axis.core.solid.thicken import thicken
+from support import meshes
+from support.thick_meshes import block
+
+BOX = block(1.0, 1.0, 1.0)
+OPEN = (BOX[0], BOX[1][1:])
+
+
+def moved(mesh, *way):
+    return mesh[0] + way, mesh[1]
+
+
+def twice(mesh, again=(0, 2, 1)):
+    return mesh[0], np.concatenate((mesh[1], mesh[1][:, again]))
+
+
+def loose(mesh):
+    """Every face with vertices of its own."""
+    points = mesh[0][mesh[1]].reshape(-1, 3)
+    return points, np.arange(len(points)).reshape(-1, 3)
+
+
+def wavy(count=12, size=1.0):
+    x, y = np.meshgrid(np.linspace(0, 1, count), np.linspace(0, 1, count))
+    points = np.stack((x, y, 0.1 * np.sin(9 * x) * np.cos(7 * y)), -1).reshape(-1, 3)
+    i = np.arange(count * count).reshape(count, count)
+    a, b, c, d = i[:-1, :-1].ravel(), i[:-1, 1:].ravel(), i[1:, 1:].ravel(), i[1:, :-1].ravel()
+    return size * points, np.concatenate((np.c_[a, b, c], np.c_[a, c, d]))
+
+
+def boxes(count, seed):
+    """Boxes, most of which overlap; the fourth lacks a triangle."""
+    random = np.random.default_rng(seed)
+    found = [moved(block(*random.uniform(0.3, 1, 3)), *random.uniform(0, 1, 3)) for _ in range(count)]
+    found[3] = (found[3][0], found[3][1][1:])
+    return meshes.join(*found)
+
+
+def shape_of(mesh):
+    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+
+
+def computed(mesh):
+    return compute_axis(shape_of(mesh), Settings())
+
+
+ONE = {
+    "overlapping boxes": meshes.join(OPEN, moved(block(0.8, 0.8, 0.8), 0.5, 0.1, 0.1)),
+    "an assembly": boxes(20, 0),
+    "both sides of each face": twice(OPEN),
+    "both sides with vertices of their own": loose(twice(OPEN)),
+    "every face twice": twice(OPEN, (0, 1, 2)),
+    "every face four times": twice(twice(OPEN)),
+    "a wavy sheet beside a box": meshes.join(BOX, moved(wavy(size=0.5), 2, 0, 0)),
+    "a large sheet beside overlapping boxes": meshes.join(
+        BOX, moved(block(0.8, 0.8, 0.8), 0.5, 0.1, 0.1), moved(wavy(), 3, 0, 0)
+    ),
+    "a triangle in a box": meshes.join(
+        BOX, (0.3 * np.eye(3) + (0.1, 0.2, 0.3), np.array([[0, 1, 2]]))
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ONE)
+def test_one_solid(name):
+    found = computed(ONE[name])
+    assert found.sides.source is SidesFrom.SURFACE
+    assert found.topology.startswith("1 piece, no loop, no cavity")
+
+
+def test_an_open_body_of_doubles_stays_beside_a_closed_one():
+    """To leave out all of it would leave no edge open."""
+    found = computed(meshes.join(twice(OPEN), moved(BOX, 2, 0, 0)))
+    assert found.topology.startswith("2 pieces, no loop, no cavity")
+
+
+def test_a_wall_between_two_rooms_is_no_body_of_doubles():
+    room, other = BOX, moved(BOX, 1, 0, 0)
+    read = outward_shape(shape_of(meshes.join(room, other)))
+    repeated = read.reading == REPEATED
+    assert repeated.sum() in (0, 4) and (read.volume == pytest.approx(2.0))
+
+
+def test_sheets_alone_are_refused():
+    with pytest.raises(DegenerateInputError, match="found an open sheet"):
+        computed(meshes.join(wavy(), moved(wavy(), 0, 3, 1)))
+
+
+@pytest.mark.parametrize("sheet", [wavy(), (wavy()[0] * (1, 1, 0.3), wavy()[1])])
+def test_results_of_solids_advise_thickness_for_a_sheet(sheet):
+    for compute in (
+        lambda shape: thicken(shape, Settings(), ThickenSettings(limit=0.1)),
+        lambda shape: hollow(shape, HollowSettings(wall=0.1)),
+    ):
+        with pytest.raises(DegenerateInputError, match=r"give it thickness \(a Solidify modifier\)$"):
+            compute(shape_of(sheet))
+
+
+def test_faces_without_corners_are_one_sentence():
+    points = np.random.default_rng(0).normal(size=(30, 3))
+    with pytest.raises(DegenerateInputError, match="faces with three corners in three places"):
+        computed((points, np.repeat(np.arange(30)[:, None], 3, axis=1)))

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small shells have samples enough to be seen, and what the faces know of the topology is compared with every result."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.axis.solid_warnings import solid_warnings
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom, SkeletonSettings
+from medial_axis.core.skeleton.compute import compute_skeleton
+from support import meshes
+from support.thick_meshes import block
+
+TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0.2, 0.9, 0], [0.5, 0.3, 0.8]])
+INWARD = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
+# Two boxes that share an edge, so that no count of the faces is that of a solid.
+AT_AN_EDGE = meshes.join(block(2, 2, 2, (11, 0, 0)), block(2, 2, 2, (13, 2, 0)))
+
+
+def with_cavities(mesh, size, count=1):
+    """A mesh with cavities along a line through its middle."""
+    places = [(x, 0.1, 0.2) for x in np.arange(count) - 0.5 * (count - 1)]
+    return meshes.join(mesh, *((size * TETRAHEDRON + place, INWARD) for place in places))
+
+
+def shape_of(mesh):
+    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+
+
+@pytest.mark.parametrize("size", [0.4, 0.04, 0.01])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_small_cavity_is_not_lost(size, seed):
+    found = compute_axis(shape_of(with_cavities(block(10, 10, 10), size)), Settings(seed=seed))
+    assert found.axis.level.betti == (1, 0, 1) and found.topology.endswith("as the solid")
+
+
+def test_a_cavity_that_no_sample_reaches_is_told():
+    found = compute_axis(shape_of(with_cavities(block(10, 10, 10), 0.002)), Settings())
+    assert found.axis.level.betti == (1, 0, 1) or any("as the faces" in w for w in found.warnings)
+
+
+def test_cavities_beside_an_edge_of_four_faces():
+    mesh = meshes.join(with_cavities(block(10, 10, 10), 0.1, 7), AT_AN_EDGE)
+    found = compute_axis(shape_of(mesh), Settings())
+    assert found.chosen.samples.by_faces is None and found.axis.level.betti[2] == 7
+
+
+def said(mesh, betti):
+    shape = shape_of(mesh)
+    chosen = compute_axis(shape, Settings(samples=1000)).chosen
+    return list(solid_warnings(shape, Side.INNER, SidesFrom.SURFACE, chosen, betti))
+
+
+def test_another_topology_than_that_of_the_faces_is_told():
+    box = block(1, 1, 1)
+    assert said(box, (1, 0, 0)) == said(box, None) == []
+    (sentence,) = said(box, (1, 1, 0))
+    assert "not as many pieces, loops and cavities as the faces" in sentence
+
+
+def test_more_pieces_than_parts_and_fewer_cavities_than_inward_shells_are_told():
+    mesh = meshes.join(with_cavities(block(10, 10, 10), 0.1, 7), AT_AN_EDGE)
+    assert said(mesh, (3, 0, 7)) == []
+    (sentence,) = said(mesh, (3, 0, 6))
+    assert "6 cavities, and 7 parts of the faces look inward" in sentence
+    open_box = (block(1, 1, 1)[0], block(1, 1, 1)[1][1:])
+    assert any("40 pieces, and the faces have 1" in text for text in said(open_box, (40, 0, 0)))
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        (block(1, 1, 4)[0], block(1, 1, 4)[1][1:]),
+        block(1.0, 0.5, 0.005),
+        meshes.join(block(1, 1, 4), block(1, 1, 4, (0.5, 0.2, 0.1))),
+    ],
+    ids=["open", "thinner than samples are apart", "parts that overlap"],
+)
+def test_a_skeleton_gives_the_warnings_of_the_axis(mesh):
+    settings = Settings(samples=1000, crisp=False, sampling=SamplingMode.SURFACE)
+    axis = compute_axis(shape_of(mesh), settings).warnings
+    skeleton = compute_skeleton(shape_of(mesh), settings, SkeletonSettings()).warnings
+    assert axis and set(axis) <= set(skeleton)
