@@ -87,8 +87,7 @@ def bench(arguments: argparse.Namespace) -> None:
     needs.require(needs.BENCH)
     blender = find_blender(arguments.blender)
     python, _ = blender_python(blender)
-    modules.build_modules(blender)
-    run("cmake", "--build", "--preset", "release", "--target", "bare_triangulation")
+    modules.build_modules(blender, beside=["bare_triangulation"])
     say("Measuring; leave the machine alone meanwhile")
     options = ["--bare", paths.BUILD / "release/lab/benchmarks/bare_triangulation"]
     options += ["--largest", min(arguments.largest, 200_000 if arguments.quick else 10**9)]
@@ -102,7 +101,7 @@ def race(arguments: argparse.Namespace) -> None:
     needs.require(needs.RACE)
     blender = find_blender(arguments.blender)
     python, _ = blender_python(blender)
-    modules.build_modules(blender)
+    modules.build_modules(blender, beside=["_medial_study"])
     page = Path(arguments.page).resolve()
     run(python, "-m", "lab.race", "--sizes", *arguments.sizes, "--page", page)
 

@@ -45,7 +45,7 @@ TABLE_1 = {
     "FEMALE": (121723, 292.85, 24.95, "igea.ply"),
 }
 """Object: points, seconds of the triangulation and of the filter, as the paper has them; what stands in for it."""
-BARE = _module.ROOT / "build" / "release" / "tests" / "benchmarks" / "bare_triangulation"
+BARE = _module.ROOT / "build" / "release" / "lab" / "benchmarks" / "bare_triangulation"
 ANGLES = (5.0, 10.0, 22.5, 40.0)
 RATIOS = (3.0, 5.0, 8.0, 16.0)
 DRAWN = {

@@ -32,10 +32,15 @@ def build_core() -> None:
 
 
 def build_modules(
-    blender: Path, local: bool = False, systems: Iterable[str] = (), tests: bool = False
+    blender: Path,
+    local: bool = False,
+    systems: Iterable[str] = (),
+    tests: bool = False,
+    beside: Iterable[str] = (),
 ) -> None:
     """Compile the release modules into blender_addon/lib: for Blender's own Python and, unless `local`, the others, and
-    those for other systems, named as in other_systems.py. With `tests` the native tests are compiled as well.
+    those for other systems, named as in other_systems.py. With `tests` the native tests are compiled as well; the
+    targets `beside` are those of the laboratory.
     """
     say("Building the native modules")
     python, abi = blender_python(blender)
@@ -46,7 +51,7 @@ def build_modules(
         headers.definition_of(folders),
     ]
     options += [f"-DMEDIAL_TESTS={'ON' if tests else 'OFF'}"]
-    targets = ["_medial", *(f"_medial_{headers.digits(version)}" for version in folders)]
+    targets = [*beside, "_medial", *(f"_medial_{headers.digits(version)}" for version in folders)]
     build_preset("release", *options, targets=[] if tests else targets)
     abis = [abi, *(re.sub(r"\d+", headers.digits(version), abi, count=1) for version in folders)]
     modules = [library.put(paths.BUILD / "release" / f"_medial.{abi}.so") for abi in abis]

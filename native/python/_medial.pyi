@@ -1660,6 +1660,28 @@ def polygon_edges(
     InvalidInputError
     """
 
+def polygon_areas(
+    points: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """The normals of polygons, as long as their areas are large.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Rows of `points`.
+
+    Returns
+    -------
+    doubled : (f, 3) float64
+        The sum over the triangles between the first corner and each side, twice as long as the area.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def polygon_triangles(
     points: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
 ) -> NDArray[np.int32]:

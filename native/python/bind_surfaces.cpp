@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // This binds queries about triangulated surfaces and polygons that need no analysis.
 #include "arrays.h"
+#include "base/polygon_areas.h"
 #include "base/polygon_edges.h"
 #include "base/rows.h"
 #include "base/triangle_tree.h"
@@ -136,6 +137,18 @@ py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& fa
                         array_of<int32_t>(std::move(edges.of_corner)));
 }
 
+py::array areas_of_polygons(const py::object& points, const py::object& face_offsets,
+                            const py::object& face_vertices) {
+  const Points rows(points, "points");
+  const auto offsets = ids_of(face_offsets, "face_offsets");
+  const auto corners = ids_of(face_vertices, "face_vertices");
+  auto doubled = [&, span = rows.span()] {
+    const py::gil_scoped_release release;
+    return doubled_areas(span, offsets, corners, all_cores());
+  }();
+  return array_of<double>(std::move(doubled));
+}
+
 py::array triangles_of_polygons(const py::object& points, const py::object& face_offsets,
                                 const py::object& face_vertices) {
   const Points rows(points, "points");
@@ -257,6 +270,8 @@ void bind_surfaces(py::module_& m) {
         py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, docs::polygon_edges, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
+  m.def("polygon_areas", &areas_of_polygons, docs::polygon_areas, py::arg("points"),
+        py::arg("face_offsets"), py::arg("face_vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, docs::polygon_triangles, py::arg("points"),
         py::arg("face_offsets"), py::arg("face_vertices"));
   m.def("crossing_faces", &faces_that_cross, docs::crossing_faces, py::arg("points"),

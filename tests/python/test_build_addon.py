@@ -2,6 +2,7 @@
 """build_addon.py and native/packaging: what they ask for, what they pack, what they refuse."""
 
 import ast
+import json
 import os
 import re
 import struct
@@ -335,6 +336,59 @@ def test_real_versions_agree():
     assert re.findall(r"^## (\d\S+)", changelog, re.MULTILINE)[0] == version
     compiled = sorted(paths.LIBRARY.glob("_medial.*.so"))
     assert compiled and all(version.encode() in module.read_bytes() for module in compiled)
+
+
+class Compiling(Exception):
+    """A command has come to its compiling, of these targets; what follows is left out."""
+
+
+@pytest.fixture
+def configured(tmp_path, monkeypatch):
+    """A function that runs a command of build_addon.py in one build folder, up to the compiling of some targets."""
+
+    def configure(preset, *definitions, targets=()):
+        words = ["cmake", "--preset", preset, "-B", tmp_path, *definitions]
+        subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
+        raise Compiling(targets)
+
+    def of(*words):
+        arguments = build_addon.parse(words)
+        with pytest.raises(Compiling) as found:
+            arguments.action(arguments)
+        return set(found.value.args[0])
+
+    python = sys.executable, "cpython-311-x86_64-linux-gnu"
+    monkeypatch.setattr(needs, "is_installed", lambda package: True)
+    monkeypatch.setattr(modules, "PYTHONS", {})
+    for place in (build_addon, modules):
+        monkeypatch.setattr(place, "blender_python", lambda blender: python)
+    monkeypatch.setattr(modules, "build_preset", configure)
+    return of
+
+
+@pytest.mark.parametrize(
+    ("command", "needed"), [("bench", "bare_triangulation"), ("race", "_medial_study")]
+)
+def test_a_command_compiles_what_it_needs_whatever_ran_before(
+    command, needed, configured, tmp_path
+):
+    """CMake remembers what the command before defined."""
+    configured("build", "--local")
+    wanted = configured(command)
+    words = ["cmake", "--build", tmp_path, "--target", "help"]
+    there = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    names = {line.partition(":")[0] for line in there.splitlines()}
+    assert needed in wanted and wanted <= names
+
+
+def test_presets_forget_what_a_command_defined():
+    """So the native tests that CONTRIBUTING.md names are there after each command, or it is an error."""
+    presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
+    base = presets["configurePresets"][0]["cacheVariables"]
+    assert base["MEDIAL_TESTS"] == base["MEDIAL_PYTHON"] == "ON"
+    assert all(
+        preset["execution"] == {"noTestsAction": "error"} for preset in presets["testPresets"]
+    )
 
 
 def test_python_whose_headers_cannot_be_had_is_named(tmp_path, monkeypatch, capsys):

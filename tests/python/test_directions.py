@@ -2,7 +2,7 @@
 """Normals of sheets and tangents of curves at vertices, on shapes whose directions are known."""
 
 import numpy as np
-from medial_axis.core.axis.directions import curve_tangents, sheet_normals
+from medial_axis.core.axis.directions import corners_after, curve_tangents, sheet_normals
 
 
 def quads(across, round_):
@@ -11,6 +11,20 @@ def quads(across, round_):
     rows = np.column_stack([first, first + 1, first + 3, first + 2]).astype(np.int32)
     rows[-1, 2:] = round_
     return np.arange(0, 4 * across + 1, 4, dtype=np.int32), rows.ravel()
+
+
+def test_areas_keep_the_bits_that_numpy_gives(medial):
+    """NumPy sums eight terms at once from eight on, and halves from 129 on."""
+    rng = np.random.default_rng(3)
+    sizes = rng.permutation([*range(3, 40), 128, 129, 130, 131, 137, 138, 300, 1000])
+    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+    vertices = rng.normal(size=(500, 3))
+    corners = rng.integers(500, size=offsets[-1]).astype(np.int32)
+    starts = offsets[:-1]
+    away = vertices[corners] - np.repeat(vertices[corners[starts]], sizes, axis=0)
+    after = away[corners_after(offsets)]
+    wanted = np.add.reduceat(np.cross(away, after), starts, axis=0)
+    np.testing.assert_array_equal(medial.polygon_areas(vertices, offsets, corners), wanted)
 
 
 def test_a_moebius_strip_has_normals_all_round():

@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..machine.native import own_errors
 from ..small_matrices import times
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-_BLOCK = (
-    1 << 15
-)  # so many facets at a time, for their corners take far more memory than their areas
 
 
 def facet_areas(
@@ -96,12 +93,8 @@ def _doubled_areas(
     vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
 ) -> NDArray[np.float64]:
     """(f, 3) vectors along the normals of facets, twice as long as their areas are large."""
-    doubled = np.zeros((len(offsets) - 1, 3))
-    for first in range(0, len(doubled), _BLOCK):
-        bounds = offsets[first : first + _BLOCK + 1]
-        places = vertices[corners[bounds[0] : bounds[-1]]]
-        doubled[first : first + _BLOCK] = _sums_of_triangles(places, bounds - bounds[0])
-    return doubled
+    with own_errors() as module:
+        return np.asarray(module.polygon_areas(vertices, offsets, corners))
 
 
 def corners_after(offsets: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -109,14 +102,6 @@ def corners_after(offsets: NDArray[np.int32]) -> NDArray[np.int64]:
     after = np.arange(1, int(offsets[-1]) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
     return after
-
-
-def _sums_of_triangles(
-    places: NDArray[np.float64], offsets: NDArray[np.int32]
-) -> NDArray[np.float64]:
-    starts = offsets[:-1]
-    away = places - np.repeat(places[starts], np.diff(offsets), axis=0)
-    return np.add.reduceat(np.cross(away, away[corners_after(offsets)]), starts, axis=0)
 
 
 def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .directions import facet_areas
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,15 +16,16 @@ _CLEAR = 3.0  # a gap is clear where what stays is so many times as thick as wha
 _SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes
 
 
-def gap_of(hierarchy: Any) -> float | None:
+def gap_of(hierarchy: Any, area: NDArray[np.float64]) -> float | None:
     """Return the length of `length_in_gap` of the sheets of a hierarchy, in percent of the diagonal.
 
     Parameters
     ----------
     hierarchy : _medial.Hierarchy
+    area : (f,) float64
+        As of `slider_range.shown_areas`.
     """
     offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
-    area = facet_areas(hierarchy.vertices, offsets, corners) * (hierarchy.facet_spacings > 1.0)
     is_meant = np.zeros(len(area), np.bool_)
     if len(hierarchy.on_crease) and len(area):
         is_meant = np.logical_or.reduceat(hierarchy.on_crease[corners], offsets[:-1])

@@ -21,7 +21,7 @@ from .detail import with_detail
 from .gap import gap_of
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
 from .rho_range import rho_range
-from .slider_range import ranges_of
+from .slider_range import ranges_of, shown_areas
 from .smooth_curve import smooth_curve
 from .structure import structure_of
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from ..machine.progress import Progress
     from ..samples.analysed import AnalysedSamples
+    from .slider_range import SliderRange
 
 _INNER = 1  # value of `_medial.Side`
 
@@ -78,6 +79,7 @@ def extract_level(
         level = hierarchy.extract(
             **wanted, relaxed=relaxed, progress=progress and progress.part()
         )
+    ranges, gap = samples.levels.kept("sliders", hierarchy, _of_sliders)
     axis = MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
@@ -99,8 +101,8 @@ def extract_level(
             betti=level.betti,
             place=_placing(level),
             crumb=crumb_sizes(level, samples),
-            ranges=samples.levels.kept("ranges", hierarchy, ranges_of),
-            gap=samples.levels.kept("gap", hierarchy, gap_of),
+            ranges=ranges,
+            gap=gap,
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
         rho_range=rho_range(samples, settings, hierarchy),
@@ -111,6 +113,12 @@ def extract_level(
     if not relaxed:
         return axis
     return smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
+
+
+def _of_sliders(hierarchy: Any) -> tuple[dict[str, SliderRange], float | None]:
+    """Return the ranges of the sliders, and the gap between sheets, which weigh the same areas."""
+    area = shown_areas(hierarchy)
+    return ranges_of(hierarchy, area), gap_of(hierarchy, area)
 
 
 def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:

@@ -73,20 +73,28 @@ def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
     )
 
 
-def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
+def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
+    """(f,) the areas of the facets of a hierarchy.
+
+    Those that are never shown, because they are no thicker than the spacing of the samples, have none.
+    """
+    area = facet_areas(hierarchy.vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
+    return area * (hierarchy.facet_spacings > 1.0)
+
+
+def ranges_of(hierarchy: Any, area: NDArray[np.float64]) -> dict[str, SliderRange]:
     """Return the ranges of the four sliders, by the names of the settings; what takes nothing away has none.
 
-    Sheets and their facets count by their area, without those that are never shown because they are no thicker than
-    the spacing of the samples. Wires count by their length, on the level without sheets, so that no slider changes the
-    range of another one.
+    Sheets and their facets count by their area. Wires count by their length, on the level without sheets, so that no
+    slider changes the range of another one.
 
     Parameters
     ----------
     hierarchy : _medial.Hierarchy
+    area : (f,) float64
+        As of `shown_areas`.
     """
     vertices, limb = hierarchy.vertices, hierarchy.edge_limb
-    area = facet_areas(vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
-    area *= hierarchy.facet_spacings > 1.0
     alone = np.flatnonzero(limb > 0.0)
     ends = vertices[hierarchy.edges[alone]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)

@@ -12,7 +12,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
-from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
@@ -124,10 +123,8 @@ def choose_samples(
 def _request(
     shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit, levels: bool
 ) -> Request:
-    with native.own_errors() as module:
-        gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 0
     sphere = settings.side is not Side.INNER
-    return Request(shape, settings, progress, limit, gaps, sphere, levels)
+    return Request(shape, settings, progress, limit, shape.open_edges, sphere, levels)
 
 
 def _thinned(

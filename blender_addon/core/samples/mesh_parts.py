@@ -308,10 +308,7 @@ def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
 
 def _open_edges(shape: Shape, settings: Settings) -> int:
     """Count the edges at which faces are open, if open faces may decide what is inside; else 0."""
-    if settings.sides is not SidesFrom.AUTOMATIC or not len(shape.triangles):
-        return 0
-    with native.own_errors() as module:
-        return int(module.open_edges(shape.points, shape.triangles))
+    return shape.open_edges if settings.sides is SidesFrom.AUTOMATIC else 0
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:

@@ -78,6 +78,20 @@ class Shape:
         return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
 
     @cached_property
+    def open_edges(self) -> int:
+        """The number of edges at which the faces are open.
+
+        Raises
+        ------
+        InvalidInputError
+            A corner is no row of the points, or a coordinate is not finite.
+        """
+        if not len(self.triangles):
+            return 0
+        with native.own_errors() as module:
+            return int(module.open_edges(self.points, self.triangles))
+
+    @cached_property
     def solid_betti(self) -> tuple[int, int, int] | None:
         """Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible."""
         with native.own_errors() as module:

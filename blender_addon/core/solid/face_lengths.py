@@ -94,9 +94,7 @@ def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> b
     by_faces = settings.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
     if not (plain and by_faces and len(shape.triangles)) or are_left_out(shape).any():
         return False
-    with native.own_errors() as module:
-        closed = module.open_edges(shape.points, shape.triangles) == 0
-    if not closed or not shape.volume > 0.0:
+    if shape.open_edges or not shape.volume > 0.0:
         return False
     return bounding_share(shape, first_pass(shape, settings).spacing) > 1.0 - _BURIED
 

@@ -128,9 +128,7 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
 def _check(shape: Shape, wanted: HollowSettings) -> None:
     if not wanted.wall > 0.0:
         raise InvalidInputError("Expected a wall above 0, found 0; set Wall to a thickness")
-    with own_errors() as module:
-        gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 1
-    if gaps or not shape.volume > 0.0:
+    if not len(shape.triangles) or shape.open_edges or not shape.volume > 0.0:
         check_no_sheet(shape)
         raise InvalidInputError(
             "Expected closed faces that enclose a solid, found none or open ones; close the mesh, or reconstruct its "

@@ -20,19 +20,17 @@ void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& 
   const auto place = [&](int64_t id) { return shared_add(next[bucket_of(id)], 1); };
   parallel_for(count, run, place);
   counts_to_offsets(next);
-  auto ids = array<int32_t>(static_cast<size_t>(count), run);
-  parallel_for(count, run, [&](int64_t id) { ids[place(id)] = static_cast<int32_t>(id); });
-  // Now next[b] is the end of bucket b.
+  // The keys lie with the ids, for looking them up bucket by bucket would wait for memory.
   using Keyed = std::pair<decltype(key_of(0)), int32_t>;
-  parallel_chunks(static_cast<int64_t>(buckets), run, [&](int64_t begin, int64_t end, int) {
-    std::vector<Keyed> bucket;
-    for (int64_t b = begin; b < end; ++b) {
-      int32_t position = b == 0 ? 0 : next[b - 1];
-      bucket.clear();
-      for (int32_t i = position; i < next[b]; ++i) bucket.emplace_back(key_of(ids[i]), ids[i]);
-      std::sort(bucket.begin(), bucket.end());
-      for (const Keyed& keyed : bucket) placed(position++, keyed.second);
-    }
+  auto sorted = array<Keyed>(static_cast<size_t>(count), run);
+  parallel_for(count, run, [&](int64_t id) {
+    sorted[place(id)] = {key_of(id), static_cast<int32_t>(id)};
+  });
+  // Now next[b] is the end of bucket b.
+  parallel_for(static_cast<int64_t>(buckets), run, [&](int64_t b) {
+    const int32_t begin = b == 0 ? 0 : next[b - 1], end = next[b];
+    std::sort(sorted.begin() + begin, sorted.begin() + end);
+    for (int32_t i = begin; i < end; ++i) placed(i, sorted[i].second);
   });
 }
 
