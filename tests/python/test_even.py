@@ -11,7 +11,7 @@ from support.data import DATA
 
 FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
-# Of the diagonal: what the worst hundredth of the axis is missed by, and by how much vertices are off in the mean.
+# Shares of the diagonal: what the worst hundredth of the axis is missed by, and by how much vertices are off in the mean.
 CURVED = {
     "cylinder": (5e-3, 5e-5),
     "cone": (2e-3, 1e-6),
@@ -109,7 +109,7 @@ def test_rims_turn_half_as_much(name):
 
 
 def test_a_triangle_has_the_values_of_a_facet_that_it_stands_for():
-    """Of a box: its generators are mirror images in the plane of the triangle, as far away as its ball."""
+    """In a box its generators are mirror images in the plane of the triangle, as far away as its ball."""
     found = made("box")
     axis = found.computation.axis
     ends = found.computation.chosen.samples.points[axis.generators]
