@@ -158,7 +158,7 @@ void EvenPlaces::join_neighbour(int32_t v) {
   e_.mesh.for_corners(v, [&](int32_t other) {
     if (same >= 0 || !(found_[other].radius > 0)) return;
     const double apart = distance(found_[v].position, found_[other].position);
-    if (apart < kSamePlace * e_.target[v] && can_collapse(e_, v, other)) same = other;
+    if (apart < kSamePlace * e_.target[v] && e_.mesh.can_collapse(v, other)) same = other;
   });
   if (same >= 0) e_.mesh.collapse(v, same);
 }
