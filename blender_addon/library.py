@@ -181,8 +181,8 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     computation : Computation
     **thresholds
         `form`, `simplify`, `erode`, `spike`, `limb`, `detail`, `crisp`, `mesh`, `theta`, `rho`, `rule`,
-        `criteria` and `limit_set` of `Settings`; what is not given stays as it was. Forms are milliseconds, too, once the hierarchy
-        was computed for `crisp`, `theta`, `rho`, `rule` and `criteria`.
+        `criteria` and `limit_set` of `Settings`; what is not given stays as it was. Forms are quick, too, once the
+        hierarchy was computed for `crisp`, `theta`, `rho`, `rule` and `criteria`.
 
     Raises
     ------

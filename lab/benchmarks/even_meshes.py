@@ -4,10 +4,10 @@
     python3 lab/benchmarks/even_meshes.py [--output table.md] [--meshes spot_low.obj ...]
 
 The default settings of the add-on. Faces; the least angle of each triangle, mean and 5 %; edges inside sheets at which
-these turn by more than 120 degrees, per thousand; pairs of triangles that cross; by how many degrees rims turn at places
-0.5 % of the diagonal apart, mean and 95 %; the share of vertices whose balls touch the faces; pieces less loops plus
-cavities as counted on the mesh and on the level; seconds of the processor of the level, and of the exact places of all
-facets, which the level of the Voronoi diagram needs once. Meshes are files of the data folder.
+these turn by more than 120 degrees, per thousand; pairs of triangles that cross; by how many degrees rims turn at
+places 0.5 % of the diagonal apart, mean and 95 %; the share of vertices whose balls touch the faces; pieces less loops
+plus cavities as counted on the mesh and on the level; seconds of the processor of the exact places of all facets, which
+the level of the Voronoi diagram needs once, and of the level. Meshes are files of the data folder.
 """
 
 import time
@@ -105,7 +105,9 @@ def rim_turns(places, edges, apart: float):
         if steps < 3:
             continue
         at = np.linspace(0.0, along[-1], steps + 1)
-        ways = np.diff(np.column_stack([np.interp(at, along, line[:, i]) for i in range(3)]), axis=0)
+        ways = np.diff(
+            np.column_stack([np.interp(at, along, line[:, i]) for i in range(3)]), axis=0
+        )
         ways /= np.maximum(np.linalg.norm(ways, axis=1), 1e-300)[:, None]
         cosine = np.einsum("si,si->s", ways[1:], ways[:-1])
         found.append(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))

@@ -260,8 +260,7 @@ void bind_analysis(py::module_& m) {
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::arg("side") = Side::inner, py::kw_only(),
           py::arg("bodies") = py::none(), py::arg("faces") = nullptr,
-          py::arg("partners") = py::none(), py::arg("places") = true,
-          py::arg("progress") = nullptr)
+          py::arg("partners") = py::none(), py::arg("places") = true, py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

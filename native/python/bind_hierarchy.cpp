@@ -239,10 +239,12 @@ void bind_hierarchy(py::module_& m) {
       .def(
           "extract",
           [](const Hierarchy& h, double sheet, double spacings, double erosion, double spike,
-             double limb, bool relaxed, bool round_limbs, bool crisp, bool even, Progress* progress) {
+             double limb, bool relaxed, bool round_limbs, bool crisp, bool even,
+             Progress* progress) {
             const py::gil_scoped_release release;
             return h.extract(
-                {sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp, even}, progress);
+                {sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp, even},
+                progress);
           },
           docs::Hierarchy_extract, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,

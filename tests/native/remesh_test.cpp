@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of a complex of sheets, against Betti numbers that are counted by ranks of boundary
 // matrices, and even meshes of plane sheets.
+#include "remesh/remesh.h"
+
 #include <gtest/gtest.h>
 
 #include <bitset>
@@ -9,7 +11,6 @@
 #include <set>
 
 #include "base/random.h"
-#include "remesh/remesh.h"
 #include "remesh/target_length.h"
 
 namespace medial {
@@ -43,7 +44,8 @@ std::vector<Triangle> left_of(const SheetComplex& mesh) {
 }
 
 // Returns pieces, loops and cavities of triangles and wires, with coefficients modulo 2.
-std::array<int, 3> betti_numbers(const std::vector<Triangle>& triangles, std::span<const Edge> wires) {
+std::array<int, 3> betti_numbers(const std::vector<Triangle>& triangles,
+                                 std::span<const Edge> wires) {
   std::map<Edge, int> edges;
   std::map<int32_t, int> vertices;
   const auto add = [&](int32_t a, int32_t b) {

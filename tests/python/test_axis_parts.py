@@ -66,7 +66,10 @@ def test_a_box_has_no_junction_too_many(seed):
 
 @pytest.mark.parametrize(("name", "room"), [("box", 1e-9), ("holed plate", 2e-2)])
 def test_numbers_do_not_depend_on_the_samples(name, room):
-    """The same number is the same sheet: its patches, its neighbours, its seams and its area, on flat faces exactly; chords of curved sheets miss a little."""
+    """The same number is the same sheet: its patches, its neighbours, its seams and its area, on flat faces exactly.
+
+    The chords of curved sheets miss a little.
+    """
     first, *others = (
         rows_of(axis_of(SHAPES[name][0](), count, seed).structure)
         for count, seed in ((4000, 0), (10000, 1), (7000, 2))

@@ -338,7 +338,7 @@ def test_real_versions_agree():
     assert compiled and all(version.encode() in module.read_bytes() for module in compiled)
 
 
-class Compiling(Exception):
+class CompilingError(Exception):
     """A command has come to its compiling, of these targets; what follows is left out."""
 
 
@@ -349,11 +349,11 @@ def configured(tmp_path, monkeypatch):
     def configure(preset, *definitions, targets=()):
         words = ["cmake", "--preset", preset, "-B", tmp_path, *definitions]
         subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
-        raise Compiling(targets)
+        raise CompilingError(targets)
 
     def of(*words):
         arguments = build_addon.parse(words)
-        with pytest.raises(Compiling) as found:
+        with pytest.raises(CompilingError) as found:
             arguments.action(arguments)
         return set(found.value.args[0])
 

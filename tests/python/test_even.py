@@ -11,7 +11,7 @@ from support.data import DATA
 
 FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
-# Shares of the diagonal: what the worst hundredth of the axis is missed by, and by how much vertices are off in the mean.
+# Shares of the diagonal: what the worst hundredth of the axis is missed by, and the mean error of vertices.
 CURVED = {
     "cylinder": (5e-3, 5e-5),
     "cone": (2e-3, 1e-6),
@@ -142,7 +142,10 @@ def test_bytes_do_not_depend_on_the_threads(medial):
     solid = samples.solid
     for threads in (1, 2, 5):
         analysis = medial.MedialAnalysis(
-            samples.points, triangles=solid.shape.triangles, vertices=solid.shape.points, threads=threads
+            samples.points,
+            triangles=solid.shape.triangles,
+            vertices=solid.shape.points,
+            threads=threads,
         )
         hierarchy = analysis.hierarchy(
             faces=solid.of_module(medial, computation.settings), places=False

@@ -325,7 +325,10 @@ OFF_REFUSED = {
     "another keyword": ("PLY\n1 2 3\n", "Expected OFF, .* in line 1 of 'a.off', found 'PLY'"),
     "four dimensions": ("4OFF\n1 0 0\n1 2 3 4\n", "three dimensions|found '4OFF'"),
     "any dimension": ("nOFF\n3\n1 0 0\n1 2 3\n", "found 'nOFF'"),
-    "binary": (b"OFF BINARY\n\x00\x00\x00\x08", "points and faces that the counts in 'a.off' announce, found 4"),
+    "binary": (
+        b"OFF BINARY\n\x00\x00\x00\x08",
+        "points and faces that the counts in 'a.off' announce, found 4",
+    ),
     "keyword alone": ("OFF\n", "numbers of points, faces and edges in line 1 of 'a.off', found ''"),
     "one count": ("OFF\n8\n", "numbers of points, faces and edges in line 2 of 'a.off', found '8'"),
     "negative count": ("OFF\n-8 6 0\n", "numbers of points, .* found '-8 6 0'"),

@@ -57,9 +57,7 @@ def off():
     return "\n".join(["OFF", "8 6 0", *rows, *["4 {} {} {} {}".format(*q) for q in QUADS], ""])
 
 
-def off_binary(
-    order=">", real="f", colours=(0,), faces=QUADS.tolist(), points=POINTS, kind=""
-):
+def off_binary(order=">", real="f", colours=(0,), faces=QUADS.tolist(), points=POINTS, kind=""):
     """A binary OFF file; `colours` follow each face: their number, and as many words."""
     words = [word for face in faces for word in (len(face), *face, *colours)]
     return b"".join(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Open faces bound a solid where the volume says so: parts that overlap, faces that stand twice, sheets beside bodies."""
+"""Open faces bound a solid where the volume says so: parts that overlap, doubled faces, sheets beside bodies."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,9 @@ def wavy(count=12, size=1.0):
 def boxes(count, seed):
     """Boxes, most of which overlap; the fourth lacks a triangle."""
     random = np.random.default_rng(seed)
-    found = [moved(block(*random.uniform(0.3, 1, 3)), *random.uniform(0, 1, 3)) for _ in range(count)]
+    found = [
+        moved(block(*random.uniform(0.3, 1, 3)), *random.uniform(0, 1, 3)) for _ in range(count)
+    ]
     found[3] = (found[3][0], found[3][1][1:])
     return meshes.join(*found)
 
@@ -103,7 +105,9 @@ def test_results_of_solids_advise_thickness_for_a_sheet(sheet):
         lambda shape: thicken(shape, Settings(), ThickenSettings(limit=0.1)),
         lambda shape: hollow(shape, HollowSettings(wall=0.1)),
     ):
-        with pytest.raises(DegenerateInputError, match=r"give it thickness \(a Solidify modifier\)$"):
+        with pytest.raises(
+            DegenerateInputError, match=r"give it thickness \(a Solidify modifier\)$"
+        ):
             compute(shape_of(sheet))
 
 

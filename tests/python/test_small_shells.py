@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small shells have samples enough to be seen, and what the faces know of the topology is compared with every result."""
+"""Small shells have enough samples, and what the faces know of the topology is compared with every result."""
 
 import numpy as np
 import pytest

@@ -56,7 +56,10 @@ def test_a_length_is_finite(box, tmp_path, capsys, command, option, length):
 
 
 def test_a_name_of_number_signs_stays_where_there_are_no_frames(box, tmp_path):
-    assert run(Path(box).rename(tmp_path / "####.off"), f"{tmp_path}/out/", "--format", "csv") == cli.DONE
+    assert (
+        run(Path(box).rename(tmp_path / "####.off"), f"{tmp_path}/out/", "--format", "csv")
+        == cli.DONE
+    )
     assert (tmp_path / "out" / "####.csv").exists()
 
 

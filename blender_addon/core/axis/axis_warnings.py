@@ -63,7 +63,8 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
     thickness = 2.0 * shape.volume / shape.area if shape.area > 0.0 else 0.0
     if closed and thickness <= np.finfo(np.float32).eps * np.abs(shape.points).max():
         return (
-            "the faces enclose no volume, as where each of them stands twice; give them thickness (a Solidify modifier)"
+            "the faces enclose no volume, as where each of them stands twice; give them thickness "
+            "(a Solidify modifier)"
         )
     if closed and spacing > thickness:
         return (

@@ -76,9 +76,7 @@ def extract_level(
         samples, settings, progress and progress.part(0.6), not wanted.get("even", False)
     )
     with native.own_errors():
-        level = hierarchy.extract(
-            **wanted, relaxed=relaxed, progress=progress and progress.part()
-        )
+        level = hierarchy.extract(**wanted, relaxed=relaxed, progress=progress and progress.part())
     ranges, gap = samples.levels.kept("sliders", hierarchy, _of_sliders)
     axis = MedialAxis(
         vertices=level.vertices,

@@ -64,13 +64,12 @@ def solid_warnings(
 def normals_look_inward(sides: SidesFrom, chosen: ChosenSamples) -> bool:
     """Whether normals decide what is inside, and point into it."""
     samples = chosen.samples
-    by_normals = sides is SidesFrom.NORMALS and samples.normals is not None
-    return by_normals and look_inward(samples.points, samples.normals)
+    if sides is not SidesFrom.NORMALS or samples.normals is None:
+        return False
+    return look_inward(samples.points, samples.normals)
 
 
-def _of_topology(
-    shape: Shape, chosen: ChosenSamples, betti: tuple[int, int, int]
-) -> Iterator[str]:
+def _of_topology(shape: Shape, chosen: ChosenSamples, betti: tuple[int, int, int]) -> Iterator[str]:
     """Compare the topology of the samples with what the faces say about that of the solid.
 
     Faces of one solid say all of it. Others, which are open or meet at edges of more than two, still say that there are
@@ -97,7 +96,9 @@ def _of_topology(
 def _of_parts_that_overlap(chosen: ChosenSamples) -> bool:
     """Whether parts lie in each other, of which the faces count each by itself."""
     samples = chosen.samples
-    return overlaps(samples) or bool(samples.buried and samples.by_faces and samples.by_faces[0] > 1)
+    return overlaps(samples) or bool(
+        samples.buried and samples.by_faces and samples.by_faces[0] > 1
+    )
 
 
 def _of_points_alone(chosen: ChosenSamples) -> Iterator[str]:

@@ -51,7 +51,7 @@ def read_off_binary(path: str | os.PathLike, kind: str) -> ImportedPoints:
 def _read(
     data: bytes, order: str, size: int, columns: int, coloured: bool
 ) -> tuple[NDArray, NDArray[np.int64], NDArray[np.int64]] | None:
-    """Return the points, (n, columns), and the sizes and corners of the faces; None where the file is written otherwise."""
+    """Return the points, (n, columns), and the sizes and corners of the faces; None where it is written otherwise."""
     if len(data) < _COUNTS * _WORD:
         return None
     points, faces, _ = np.frombuffer(data, order + "i4", _COUNTS).tolist()

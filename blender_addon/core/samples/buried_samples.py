@@ -116,7 +116,7 @@ def outer_share(shape: Shape, spacing: float) -> float:
 def sides_of_faces(
     shape: Shape, rows: NDArray[np.intp], spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
-    """(k,) twice the areas of some faces, whether they bound nothing, and whether that is because they lie in the solid.
+    """(k,) twice the areas of some faces, whether they bound nothing, and whether because they lie in the solid.
 
     `spacing` is as in `bounding_share`.
     """

@@ -30,7 +30,8 @@ _WIDE = 10.0
 # Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
 _TURNED = 0.01
 _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
-# Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a wavy sheet does.
+# Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a
+# wavy sheet does.
 _BOUNDING = 0.75
 
 
@@ -118,8 +119,9 @@ def are_sheets(
     rows = np.flatnonzero(part >= 0)
     rows = rows[some_of(len(rows))]
     areas, buried, inside = sides_of_faces(shape, rows, spacing)
+    everywhere = np.ones(len(rows), np.bool_)
     outer, bounding, every = (
-        np.bincount(part[rows], areas * counts, count) for counts in (~inside, ~buried, True)
+        np.bincount(part[rows], areas * counts, count) for counts in (~inside, ~buried, everywhere)
     )
     return (every > 0.0) & np.where(outer > 0.0, bounding < _BOUNDING * outer, is_open)
 

@@ -131,9 +131,7 @@ def sample_faces(
     )
 
 
-def _sampled(
-    shape: Shape, rows: NDArray[np.int64], options: dict[str, Any], progress: Any
-) -> Any:
+def _sampled(shape: Shape, rows: NDArray[np.int64], options: dict[str, Any], progress: Any) -> Any:
     with native.own_errors() as module:
         return module.sample_surface(
             shape.points,

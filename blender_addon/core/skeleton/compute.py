@@ -151,7 +151,7 @@ def compute_skeleton(
         outside=outside,
         chosen=chosen,
         warnings=(
-            *solid_warnings(begun.shape, Side.INNER, decided, chosen, tuple(level.betti)),
+            *solid_warnings(begun.shape, Side.INNER, decided, chosen, level.betti),
             *skeleton_warnings(loops, len(level.generators), outside),
         ),
         seconds=begun.seconds,

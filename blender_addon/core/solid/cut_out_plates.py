@@ -49,15 +49,15 @@ def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
         return None
     largest = sheets.part == np.bincount(sheets.part, volumes).argmax()
     mean = (normals * doubled[:, None])[largest].sum(axis=0) / doubled[largest].sum()
-    if length_of(mean) < _ALONG:  # a curved sheet, of which no plate has one; that of a pipe has no mean normal
+    if (
+        length_of(mean) < _ALONG
+    ):  # a curved sheet, of which no plate has one; that of a pipe has no mean normal
         return None
     thickness = float(volumes[largest].sum() / (0.5 * doubled[largest].sum()))
     return _plate(shape, mean, thickness)
 
 
-def _plate(
-    shape: Shape, across: NDArray[np.float64], thickness: float
-) -> CarriedSheets | None:
+def _plate(shape: Shape, across: NDArray[np.float64], thickness: float) -> CarriedSheets | None:
     """The middle of a plate of about a thickness, whose flat faces look along a vector, about, and against it."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     turned = dot(normals, across[None])

@@ -147,7 +147,14 @@ def mid_surface(
         )
     shape = outward_shape(shape)
     settings = replace(
-        settings, form=Form.CLEAN, mesh=Mesh.VORONOI, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
+        settings,
+        form=Form.CLEAN,
+        mesh=Mesh.VORONOI,
+        crisp=True,
+        side=Side.INNER,
+        simplify=0.0,
+        erode=0.0,
+        spike=0.0,
     )
     # Its rims go out to the walls, so smoothing them first would only take them off their places.
     found = compute_axis(shape, settings, progress, limit, relaxed=False)
@@ -315,8 +322,8 @@ def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
     """A sentence where area times thickness is not the volume."""
     if share > _DOUBLED:
         return (
-            f"the sheets have {percent(share)} of the volume: where walls meet, both count, but some may also lie twice "
-            "or not in the middle; more samples may help",
+            f"the sheets have {percent(share)} of the volume: where walls meet, both count, but some may also lie "
+            "twice or not in the middle; more samples may help",
         )
     if share >= _MOST:
         return ()

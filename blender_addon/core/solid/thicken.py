@@ -332,9 +332,7 @@ class _Walls:
             )
         np.minimum.at(self._most, self._fans.of_corners[rows], _OF_GAP * gap[:, None])
 
-    def without_crossings(
-        self, moves: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], bool]:
+    def without_crossings(self, moves: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
         """(v, 3) the moves, less where faces would pass through each other, and whether any would.
 
         Corners of such faces go half as far, and half of that, and at last nowhere: then the faces are as they were.

@@ -71,8 +71,8 @@ class MedialAnalysis {
   // there is a face and a partner per point; DegenerateInputError for samples that enclose nothing.
   Hierarchy hierarchy(const Thresholds& thresholds = {}, Side side = Side::inner,
                       std::optional<int64_t> bodies = std::nullopt, Progress* progress = nullptr,
-                      const FacesInput* faces = nullptr,
-                      std::span<const int32_t> partners = {}, bool places = true) const;
+                      const FacesInput* faces = nullptr, std::span<const int32_t> partners = {},
+                      bool places = true) const;
 
   // Returns for each sample, ascending by row, the largest circumradius in its umbrella, infinite
   // for an empty one.

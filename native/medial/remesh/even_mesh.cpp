@@ -25,8 +25,8 @@ struct Plane {
 Plane plane_of(const Places& p) {
   const Vec3 across = cross(p[1] - p[0], p[2] - p[0]);
   const double area = length(across);
-  const double longest = std::max({squared_length(p[1] - p[0]), squared_length(p[2] - p[0]),
-                                   squared_length(p[2] - p[1])});
+  const double longest = std::max(
+      {squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[2] - p[1])});
   return area > 0 ? Plane{(1 / area) * across, area / longest} : Plane{};
 }
 

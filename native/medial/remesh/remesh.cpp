@@ -12,10 +12,10 @@ namespace {
 // An edge longer than the first share of its target is split, one shorter than the second share is
 // collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
-constexpr int kCollapsePasses = 10;      // at most; each takes the shortest edges first
-constexpr double kFewCollapses = 0.01;   // of the vertices end the passes
-constexpr int kCurveSteps = 3;           // towards the middle of the neighbours along a curve
-constexpr double kStep = 0.5;            // of the way to there, which levels a zigzag at once
+constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
+constexpr double kFewCollapses = 0.01;  // of the vertices end the passes
+constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
+constexpr double kStep = 0.5;           // of the way to there, which levels a zigzag at once
 
 class Remesher {
  public:
@@ -99,7 +99,8 @@ class Remesher {
   bool collapse(int32_t from, int32_t to) {
     if (mesh_.stratum(from) > mesh_.stratum(to) || !mesh_.has_triangles(from)) return false;
     if (!(edge_length(from, to) < kShort * target(from, to))) return false;
-    if (!keeps_line(from, to) || !can_collapse(e_, from, to) || !stays_short(from, to)) return false;
+    if (!keeps_line(from, to) || !can_collapse(e_, from, to) || !stays_short(from, to))
+      return false;
     moved_.clear();
     mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
     mesh_.collapse(from, to);
@@ -161,8 +162,8 @@ class Remesher {
     return here + kStep * dot(way, tangent) * tangent;
   }
 
-  // Returns the place half way to the mean of the neighbours along the seams of a node; one at a rim
-  // is a tip, which would be rounded off.
+  // Returns the place half way to the mean of the neighbours along the seams of a node; one at a
+  // rim is a tip, which would be rounded off.
   Vec3 centre_of_curves(int32_t v) const {
     Vec3 sum;
     const auto beside = mesh_.curve_neighbours(v);

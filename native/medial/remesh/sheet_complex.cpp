@@ -5,8 +5,8 @@
 
 namespace medial {
 
-SheetComplex::SheetComplex(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
-                     std::span<const uint8_t> is_node)
+SheetComplex::SheetComplex(int32_t vertices, std::vector<Triangle> triangles,
+                           std::span<const Edge> wires, std::span<const uint8_t> is_node)
     : triangles_(std::move(triangles)),
       first_(vertices, -1),
       next_(3 * triangles_.size()),
@@ -93,9 +93,8 @@ namespace {
 int go_along(std::vector<Edge>& edges, int32_t at, int32_t to) {
   int count = 0;
   do {
-    const auto next = std::find_if(edges.begin(), edges.end(), [&](const Edge& e) {
-      return e[0] == at || e[1] == at;
-    });
+    const auto next = std::find_if(edges.begin(), edges.end(),
+                                   [&](const Edge& e) { return e[0] == at || e[1] == at; });
     if (next == edges.end()) return count;
     at = (*next)[0] == at ? (*next)[1] : (*next)[0];
     *next = edges.back();
@@ -200,7 +199,8 @@ bool SheetComplex::can_collapse(int32_t from, int32_t to) const {
     const auto& [a, b] = link_of(triangles_[t], from);
     closes = closes || (mark_[a] == common && mark_[b] == common && has_triangle(to, a, b));
   });
-  return !closes && (stratum_[from] == Stratum::sheet || merge_of(from, to) != Merge::loses_triangle);
+  return !closes &&
+         (stratum_[from] == Stratum::sheet || merge_of(from, to) != Merge::loses_triangle);
 }
 
 void SheetComplex::collapse(int32_t from, int32_t to) {

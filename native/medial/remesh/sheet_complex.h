@@ -17,13 +17,14 @@ namespace medial {
 // Every other vertex is a node, and so is one at which a wire ends, or that is said to be one.
 enum class Stratum : uint8_t { sheet, curve, node };
 
-// `triangles_at`, `can_collapse` and what calls them may not be called from several threads at once.
+// `triangles_at`, `can_collapse` and what calls them may not be called from several threads at
+// once.
 class SheetComplex {
  public:
   // No two triangles have the same corners. No wire has the same ends as another or as an edge of a
   // triangle.
   SheetComplex(int32_t vertices, std::vector<Triangle> triangles, std::span<const Edge> wires,
-            std::span<const uint8_t> is_node);
+               std::span<const uint8_t> is_node);
 
   int32_t vertices() const { return static_cast<int32_t>(first_.size()); }
   int32_t triangles() const { return static_cast<int32_t>(triangles_.size()); }
@@ -80,8 +81,8 @@ class SheetComplex {
   // Returns whether an edge inside a sheet can be replaced by the other diagonal of its two
   // triangles.
   bool can_flip(int32_t a, int32_t b) const;
-  // The first one of triangles_at(a, b) gives up `b` and the second one `a`; they stay turned as they
-  // are.
+  // The first one of triangles_at(a, b) gives up `b` and the second one `a`; they stay turned as
+  // they are.
   void flip(int32_t a, int32_t b);
 
   // Divides an edge by a new vertex, which is returned. Of each triangle at the edge, the half at
@@ -104,10 +105,10 @@ class SheetComplex {
   std::vector<Triangle> triangles_;
   std::vector<int32_t> first_, next_, before_;  // per vertex and corner: the list of corners; or -1
   std::vector<Stratum> stratum_;                // kept by nearly all changes
-  std::vector<uint8_t> stays_;                  // per vertex: whether it is a node that is never collapsed
-  std::vector<Edge> wires_;                     // both ways, ascending
-  mutable std::vector<int32_t> at_edge_;        // result of triangles_at
-  mutable std::vector<uint32_t> mark_;          // per vertex, in can_collapse
+  std::vector<uint8_t> stays_;  // per vertex: whether it is a node that is never collapsed
+  std::vector<Edge> wires_;     // both ways, ascending
+  mutable std::vector<int32_t> at_edge_;  // result of triangles_at
+  mutable std::vector<uint32_t> mark_;    // per vertex, in can_collapse
   mutable uint32_t newest_mark_ = 0;
 };
 

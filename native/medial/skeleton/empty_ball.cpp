@@ -57,8 +57,8 @@ class BallFinder {
     return trial;
   }
 
-  // Returns the wall whose foot is seen nearest to the direction of a place inside the ball, and how
-  // far apart the two directions are.
+  // Returns the wall whose foot is seen nearest to the direction of a place inside the ball, and
+  // how far apart the two directions are.
   static std::pair<size_t, double> likeliest(const Trial& trial) {
     const Vec3 away = normalized(trial.ball.centre - trial.nearer->point);
     std::pair<size_t, double> best{0, HUGE_VAL};

@@ -7,10 +7,10 @@ namespace medial {
 namespace {
 
 // Lengths are in holes between the samples.
-constexpr double kCreaseBall = 8;      // the largest ball of a rim that ends in a crease
-constexpr double kAccidentBall = 3.5;  // the same of one that may be no crease
+constexpr double kCreaseBall = 8;       // the largest ball of a rim that ends in a crease
+constexpr double kAccidentBall = 3.5;   // the same of one that may be no crease
 constexpr double kCornerReach = 2.5;    // from the end of a rim to a corner of the solid
-constexpr double kOneDirection = 0.85;   // the cosine between creases of one direction
+constexpr double kOneDirection = 0.85;  // the cosine between creases of one direction
 
 // Where a vertex of a rim goes.
 struct OnCrease {
@@ -54,8 +54,8 @@ class CreaseHolder {
         ends = ends || e_.mesh.uses(v, other) == 1;
       }
       best.at_corner = best.at_corner || (best.place.edge >= 0 && !same_line(best.place, *found));
-      if (best.place.edge < 0 || distance(found->point, e_.position[v]) <
-                                     distance(best.place.point, e_.position[v])) {
+      if (best.place.edge < 0 ||
+          distance(found->point, e_.position[v]) < distance(best.place.point, e_.position[v])) {
         best.place = *found;
       }
     });
@@ -140,9 +140,9 @@ class CreaseHolder {
 
 }  // namespace
 
-void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
-                     std::span<const double> hole, std::span<const double> radius,
-                     const Run& run) {
+void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
+                     std::span<const Edge> generators, std::span<const double> hole,
+                     std::span<const double> radius, const Run& run) {
   if (samples.creases().empty()) return;
   CreaseHolder(even, samples, generators, hole, radius).hold(run);
 }

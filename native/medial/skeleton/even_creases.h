@@ -9,7 +9,8 @@ namespace medial {
 
 // Moves vertices of rims onto creases, where the mesh holds them from then on, and to the corners
 // of these, which become nodes. `generators` and `hole` are per facet and per vertex.
-void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
-                     std::span<const double> hole, std::span<const double> radius, const Run& run);
+void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
+                     std::span<const Edge> generators, std::span<const double> hole,
+                     std::span<const double> radius, const Run& run);
 
 }  // namespace medial

@@ -7,16 +7,16 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kFew = 64;        // vertices that a thread takes at a time
-constexpr double kSamePlace = 1e-3;  // of the target length, between places that are one
-constexpr double kMostSlide = 0.7;  // of the target length that a rim moves at once
-constexpr double kAtEnd = 0.1;    // of the target length: a rim that moves less is at its end
+constexpr int64_t kFew = 64;            // vertices that a thread takes at a time
+constexpr double kSamePlace = 1e-3;     // of the target length, between places that are one
+constexpr double kMostSlide = 0.7;      // of the target length that a rim moves at once
+constexpr double kAtEnd = 0.1;          // of the target length: a rim that moves less is at its end
 constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
-constexpr double kRimSlope = 0.2;         // of the steps along a rim
+constexpr double kRimSlope = 0.2;       // of the steps along a rim
 constexpr double kRough = 0.1;          // mean deviation of steps, in target lengths
 constexpr int kMeans = 3, kMeansOfRoughness = 16;
-constexpr int kAlongRounds = 12;         // in which a step learns of those along the rim
-constexpr int kHalvingsToLast = 10;     // of the way to the last ball that touches two places
+constexpr int kAlongRounds = 12;     // in which a step learns of those along the rim
+constexpr int kHalvingsToLast = 10;  // of the way to the last ball that touches two places
 
 }  // namespace
 
@@ -279,15 +279,14 @@ bool EvenPlaces::slide() {
   return most > kAtEnd;
 }
 
-// Returns the direction in which a sheet ends at a vertex of its rim: away from the third corners of
-// its triangles, across the rim.
+// Returns the direction in which a sheet ends at a vertex of its rim: away from the third corners
+// of its triangles, across the rim.
 Vec3 EvenPlaces::outward_at(int32_t v) const {
   const auto [a, b] = e_.mesh.along_curve(v);
   const Vec3 along = normalized(e_.position[b] - e_.position[a]);
   Vec3 inner;
-  e_.mesh.for_corners(v, [&](int32_t other) {
-    inner = inner + e_.position[other] - e_.position[v];
-  });
+  e_.mesh.for_corners(v,
+                      [&](int32_t other) { inner = inner + e_.position[other] - e_.position[v]; });
   const Vec3 across = normal_at(e_, v);
   inner = inner - dot(inner, along) * along - dot(inner, across) * across;
   return -normalized(inner);

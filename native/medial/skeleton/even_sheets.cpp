@@ -17,11 +17,11 @@ namespace {
 constexpr double kEdge = 3.3;       // the wanted length of an edge: twice the distance of samples
 constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
 constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
-constexpr double kOfArea = 2.5;     // the same in sides of a facet, which are long in rough scans
-constexpr double kOfWidth = 0.7;    // the same in half-widths of the sheet
-constexpr double kSlope = 0.5;      // by which lengths grow along the sheet at most
-constexpr double kChord = 1e-3;     // of the diagonal that a chord misses a curved sheet by, at most
-constexpr int kMovingRounds = 2;    // in which curves lose the zigzag of the samples
+constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
+constexpr double kOfWidth = 0.7;  // the same in half-widths of the sheet
+constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
+constexpr double kChord = 1e-3;   // of the diagonal that a chord misses a curved sheet by, at most
+constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
 constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
 
 class EvenSheets {
@@ -30,7 +30,8 @@ class EvenSheets {
       : level_(level),
         h_(h),
         samples_(crisp ? h.on_faces.get() : nullptr),
-        run_{run.threads, nullptr, nullptr}, progress_(run.progress) {}
+        run_{run.threads, nullptr, nullptr},
+        progress_(run.progress) {}
 
   void make() {
     for (size_t f = 0; f < level_.facet_of.size(); ++f) {
@@ -87,10 +88,14 @@ class EvenSheets {
     std::vector<uint8_t> is_node(all, 0);
     for (const int32_t v : level_.points) is_node[v] = 1;
     SheetComplex mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
-                   is_node);
-    EvenMesh even{std::move(mesh),       std::move(position),
-                  std::vector<double>(all), std::move(origin),
-                  std::vector<uint8_t>(all, kFree), std::move(simplices.source), std::move(normal)};
+                      is_node);
+    EvenMesh even{std::move(mesh),
+                  std::move(position),
+                  std::vector<double>(all),
+                  std::move(origin),
+                  std::vector<uint8_t>(all, kFree),
+                  std::move(simplices.source),
+                  std::move(normal)};
     find_holes(even);
     return even;
   }
@@ -121,7 +126,8 @@ class EvenSheets {
   void choose_targets(EvenMesh& even) {
     const auto width = half_widths(even.mesh, even.position);
     parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
-      const double least = std::max(kLeastEdge * hole_[v], 0.4 * kOfArea * std::sqrt(facet_area_[v]));
+      const double least =
+          std::max(kLeastEdge * hole_[v], 0.4 * kOfArea * std::sqrt(facet_area_[v]));
       const double most = std::max(kEdge * hole_[v], kOfArea * std::sqrt(facet_area_[v]));
       even.target[v] = std::clamp(kOfWidth * width[v], least, most);
     });
@@ -145,8 +151,8 @@ class EvenSheets {
     places.place();
   }
 
-  // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of their
-  // height times this angle.
+  // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of
+  // their height times this angle.
   void follow_curvature(EvenMesh& even) {
     const SheetComplex& mesh = even.mesh;
     const double chord = kChord * h_.complex.diagonal;
@@ -174,7 +180,7 @@ class EvenSheets {
   const SamplesOnFaces* samples_;  // null if no faces give places
   Run run_;
   Progress* progress_;
-  std::vector<Edge> generators_;  // per facet of the level: samples
+  std::vector<Edge> generators_;                    // per facet of the level: samples
   std::vector<double> hole_, radius_, facet_area_;  // per vertex at the start
 };
 

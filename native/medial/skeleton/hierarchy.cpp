@@ -187,8 +187,8 @@ std::vector<double> bounded_spacing(const Samples& samples, std::span<const doub
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const FacesInput* faces, std::span<const int32_t> partners,
-                         bool places, const Frame& frame, const Run& run) {
+                         const FacesInput* faces, std::span<const int32_t> partners, bool places,
+                         const Frame& frame, const Run& run) {
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
@@ -266,7 +266,8 @@ size_t Hierarchy::bytes() const {
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
                  c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, p.row,
-                 p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place, p.on_crease) +
+                 p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place,
+                 p.on_crease) +
          (c.dual.size() + c.cell.size()) * sizeof(float) +  // of `spikes`, known or not
          p.samples.bytes() + p.spacing.size() * sizeof(double) +
          (p.faces ? p.faces->bytes() + p.on_faces->bytes() : 0);

@@ -335,7 +335,8 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
   if (options.even) make_even(level, h, options.crisp, run);
-  if (options.relaxed) relax(level, options.even ? std::vector<Edge>{} : drawer.rims(), h, crisp, run);
+  if (options.relaxed)
+    relax(level, options.even ? std::vector<Edge>{} : drawer.rims(), h, crisp, run);
   advance(run.progress, 1);
   return level;
 }

@@ -24,17 +24,17 @@ struct Hierarchy::Parts {
   Array<float> thickness;  // per facet: its erosion thickness itself, as a share of the diagonal
   mutable SpikeValues spikes;  // computed when a level first asks for it
   mutable std::once_flag spikes_known;
-  Array<float> limb;                   // per vertex
-  Array<double> sine, rho;             // per facet, as in Significance
-  std::unique_ptr<const Faces> faces;  // null if there are none
+  Array<float> limb;                               // per vertex
+  Array<double> sine, rho;                         // per facet, as in Significance
+  std::unique_ptr<const Faces> faces;              // null if there are none
   std::unique_ptr<const SamplesOnFaces> on_faces;  // likewise
-  CrispPlaces crisp;                   // empty without faces, or where they were not wanted
-  Array<uint8_t> on_crease;            // per vertex: whether a rim ends there; empty without faces
+  CrispPlaces crisp;         // empty without faces, or where they were not wanted
+  Array<uint8_t> on_crease;  // per vertex: whether a rim ends there; empty without faces
   PointTree samples;
   std::vector<int32_t> row;     // of each sample in the input
   std::vector<double> spacing;  // of each sample: the largest hole beside it
-  Array<int32_t> outside;    // result of outside_components
-  Betti betti = {};          // of the complex
+  Array<int32_t> outside;       // result of outside_components
+  Betti betti = {};             // of the complex
   int threads = 1;
   Timings timings;
 

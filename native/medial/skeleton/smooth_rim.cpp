@@ -6,9 +6,9 @@ namespace {
 
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
-constexpr double kMostOpen = 0.45;          // the squared sine of half the angle
-constexpr double kFarOut = 0.8;             // of the way to the rim that balls are tried on
-constexpr double kFarthestRim = 0.5;        // from the last vertex to the rim, in radii
+constexpr double kMostOpen = 0.45;    // the squared sine of half the angle
+constexpr double kFarOut = 0.8;       // of the way to the rim that balls are tried on
+constexpr double kFarthestRim = 0.5;  // from the last vertex to the rim, in radii
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 4;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A wire that ends at a sheet, as the axis of a cylinder does, ends where the ball touches walls all
-// round it and one before it.
+// A wire that ends at a sheet, as the axis of a cylinder does, ends where the ball touches walls
+// all round it and one before it.
 #pragma once
 
 #include "skeleton/empty_ball.h"
