@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 
 def points_with_radii(
-    tree: Tree, merge: bpy.types.NodeSocket
+    tree: Tree, merge: bpy.types.NodeSocket, axis: bpy.types.NodeSocket | None = None
 ) -> tuple[bpy.types.NodeSocket, bpy.types.NodeSocket]:
     """(the points of the axis, their radii), with the inputs *Factor*, *Offset* and *Min Radius*.
 
     Of vertices closer than `merge` one stays. A radius times the factor plus the offset is a thicker or thinner solid;
-    where that is nothing, there is no ball.
+    where that is nothing, there is no ball. `axis` is the mesh if that is not the geometry of the group.
     """
     factor = tree.number("Factor", 1.0, "Radii are multiplied by this")
     offset = tree.number(
@@ -32,7 +32,7 @@ def points_with_radii(
     nothing = tree.compare("LESS_EQUAL", radius, 0.0)
     kept = tree.node(
         "GeometryNodeDeleteGeometry",
-        tree.geometry,
+        tree.geometry if axis is None else axis,
         tree.logic("OR", small, nothing),
         domain="POINT",
         mode="ALL",

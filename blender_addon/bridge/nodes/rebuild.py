@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)
 MATERIAL = "Material"
 _VOXEL = 2.0**-7  # the size at which the solid is made
+_FACES = 60_000.0  # about as many as the facets of an axis of 40,000 samples
+_MOST_DIVISIONS = 4.0
 
 
 def build(name: str) -> bpy.types.GeometryNodeTree:
@@ -28,7 +30,8 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     tree = Tree(name)
     voxel = _voxel(tree)
     merge = tree.number("Merge", 1.0, "Of vertices closer than this only one counts; voxels")
-    points, radius = points_with_radii(tree, tree.math("MULTIPLY", voxel, merge))
+    merged = tree.math("MULTIPLY", voxel, merge)
+    points, radius = points_with_radii(tree, merged, _divided(tree))
     # OpenVDB ends Blender for voxels whose volume is next to nothing. So the solid is made of voxels of one size,
     # and scaled back.
     growth = tree.math("DIVIDE", _VOXEL, voxel)
@@ -42,6 +45,17 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     material = tree.input("NodeSocketMaterial", MATERIAL, radius_material(), about)
     mesh = tree.node("GeometryNodeSetMaterial", mesh, named={"Material": material})
     return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
+
+
+def _divided(tree: Tree) -> NodeSocket:
+    """The axis, divided until it has nearly as many faces as balls make a smooth solid: radii between are linear."""
+    size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry, component="MESH").node
+    more = tree.math("DIVIDE", _FACES, size.outputs["Face Count"])
+    level = tree.math("FLOOR", tree.math("MAXIMUM", tree.math("LOGARITHM", more, 4.0), 0.0))
+    return tree.node(
+        "GeometryNodeSubdivideMesh",
+        named={"Mesh": tree.geometry, "Level": tree.math("MINIMUM", level, _MOST_DIVISIONS)},
+    )
 
 
 def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:

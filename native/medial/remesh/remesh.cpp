@@ -16,6 +16,8 @@ constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edge
 constexpr double kFewCollapses = 0.01;  // of the vertices end the passes
 constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
 constexpr double kStep = 0.5;           // of the way to there, which levels a zigzag at once
+// A step back, a little longer, keeps lines from shrinking where they bend (Taubin 1995).
+constexpr double kStepBack = -0.53;
 
 class Remesher {
  public:
@@ -48,12 +50,16 @@ class Remesher {
   }
 
   void smooth() {
-    const int steps = options_.moves_curves ? kCurveSteps : 1;
-    for (int i = 0; i < steps; ++i) {
-      if (options_.moves_curves) step(Stratum::node);
-      step(Stratum::curve);
+    if (options_.moves_curves) {
+      for (int i = 0; i < kCurveSteps; ++i) {
+        step(Stratum::node, kStep);
+        step(Stratum::curve, kStep);
+        step(Stratum::curve, kStepBack);
+      }
+    } else {
+      step(Stratum::curve, kStep);
     }
-    step(Stratum::sheet);
+    step(Stratum::sheet, 1);
   }
 
  private:
@@ -149,17 +155,17 @@ class Remesher {
     for (int i = 0; i < 2; ++i) e_.normal[two[i]] = (*normals)[i];
   }
 
-  Vec3 wanted_place(int32_t v) const {
+  Vec3 wanted_place(int32_t v, double share) const {
     if (e_.held[v] && mesh_.stratum(v) != Stratum::curve) return e_.position[v];
     if (mesh_.stratum(v) == Stratum::sheet) return centre_of_sheet(v);
     if (mesh_.stratum(v) == Stratum::node) return centre_of_curves(v);
     const Edge along = mesh_.along_curve(v);
     const Vec3 &a = e_.position[along[0]], &b = e_.position[along[1]], &here = e_.position[v];
     const Vec3 way = 0.5 * (a + b) - here;
-    if (e_.held[v]) return options_.onto_line(here + kStep * way);
-    if (options_.moves_curves) return here + kStep * way;
+    if (e_.held[v]) return share > 0 ? options_.onto_line(here + share * way) : here;
+    if (options_.moves_curves) return here + share * way;
     const Vec3 tangent = normalized(b - a);
-    return here + kStep * dot(way, tangent) * tangent;
+    return here + share * dot(way, tangent) * tangent;
   }
 
   // Returns the place half way to the mean of the neighbours along the seams of a node; one at a
@@ -192,12 +198,12 @@ class Remesher {
     return here + way - dot(way, across) * across;
   }
 
-  void step(Stratum stratum) {
+  void step(Stratum stratum, double share) {
     const auto count = static_cast<int64_t>(mesh_.vertices());
     std::vector<Vec3> wanted(e_.position);
     parallel_for(count, {run_.threads, nullptr, nullptr}, [&](int64_t id) {
       const auto v = static_cast<int32_t>(id);
-      if (mesh_.has_triangles(v) && mesh_.stratum(v) == stratum) wanted[v] = wanted_place(v);
+      if (mesh_.has_triangles(v) && mesh_.stratum(v) == stratum) wanted[v] = wanted_place(v, share);
     });
     for (int32_t v = 0; v < mesh_.vertices(); ++v) {
       if (wanted[v] == e_.position[v]) continue;

@@ -14,11 +14,11 @@ namespace {
 
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
-constexpr double kEdge = 3.3;       // the wanted length of an edge: twice the distance of samples
+constexpr double kEdge = 2.8;       // the wanted length of an edge: 1.7 times the distance of samples
 constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
 constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
-constexpr double kOfWidth = 0.7;  // the same in half-widths of the sheet
+constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
 constexpr double kChord = 1e-3;   // of the diagonal that a chord misses a curved sheet by, at most
 constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
