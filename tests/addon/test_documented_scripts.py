@@ -15,7 +15,7 @@ SCRIPTS = {
     "suzanne.ma": (r"Suzanne Medial Axis: (\d+) vertices, radius", None),
     "memory_limit": (None, 0),
     "primitive_torus_add": (r"\{'FINISHED'\} Torus Medial Axis (\d+)", None),
-    "tight_cocone_surface": (r"scan Medial Axis (\d+) Inside from Tight Cocone", 10_824),
+    "tight_cocone_surface": (r"scan Medial Axis (\d+) Inside from Tight Cocone", 1_400),
 }
 
 

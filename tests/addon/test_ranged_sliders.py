@@ -80,8 +80,9 @@ def test_simplify_goes_to_the_gap_of_a_noisy_body(tmp_path):
     noisy = positions(source.data)
     noisy += np.random.default_rng(1).normal(scale=0.014, size=noisy.shape)
     source.data.vertices.foreach_set("co", noisy.astype(np.float32).ravel())
-    compute(sampling="VERTICES", prepare="OFF", form="CLEAN")
+    compute(sampling="VERTICES", prepare="OFF", form="CLEAN", mesh="VORONOI")
     select(source)
+    panel().mesh = "VORONOI"
     result, name = result_of(source), source.name
     gap, whole = result["ma_simplify_gap"], facets(result)
     assert bpy.ops.object.medial_axis_simplify_to_gap() == {"FINISHED"}

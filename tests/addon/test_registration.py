@@ -26,7 +26,7 @@ SAMPLING = (
     "seed",
 )
 OPTIONS = (
-    *("form", "simplify", "erode", "spike", "limb", "detail", "crisp"),
+    *("form", "simplify", "erode", "spike", "limb", "detail", "crisp", "mesh"),
     *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
     *SAMPLING,
 )

@@ -447,7 +447,7 @@ def test_sliders_work_on_samples():
 
 def test_export_after_sampling(tmp_path):
     bpy.ops.mesh.primitive_cube_add()
-    result = click(sampling="SURFACE", samples=1_000)
+    result = click(sampling="SURFACE", samples=1_000, mesh="VORONOI")
     path = tmp_path / "cube.npz"
     assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
     axis = np.load(path)

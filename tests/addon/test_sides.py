@@ -313,11 +313,11 @@ def test_another_source_is_another_analysis():
 
 def test_sliders_keep_what_told_inside_from_outside():
     source = scan()
-    compute()
+    compute(mesh="VORONOI")
     result, before = result_of(source), analyses()
     count, inside = len(result.data.polygons), result["ma_inside"]
     panel = bpy.context.scene.medial_axis
-    panel.sides = "SURFACE"
+    panel.sides, panel.mesh = "SURFACE", "VORONOI"
     panel.criteria, panel.theta = "ANGLE", 1.0
     assert 0 < len(result.data.polygons) < count and panel.note == ""
     assert (result["ma_sides"], result["ma_side"]) == ("TIGHT_COCONE", "INNER")

@@ -17,7 +17,7 @@ CURVED = {
     "cone": (2e-3, 1e-6),
     "plate": (1e-3, 1e-7),
     "stadium": (3e-3, 5e-5),
-    "oblate": (1e-3, 1e-4),
+    "oblate": (1e-3, 2e-4),
     "ellipsoid": (1e-3, 2e-4),
 }
 REAL = ("spot_low.obj", "hand_closed.obj", "fandisk_large.off")

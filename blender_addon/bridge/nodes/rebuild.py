@@ -49,8 +49,9 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
 
 def _divided(tree: Tree) -> NodeSocket:
     """The axis, divided until it has nearly as many faces as balls make a smooth solid: radii between are linear."""
+    # The outputs are numbers of points, edges, faces and others.
     size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry, component="MESH").node
-    more = tree.math("DIVIDE", _FACES, size.outputs["Face Count"])
+    more = tree.math("DIVIDE", _FACES, size.outputs[2])
     level = tree.math("FLOOR", tree.math("MAXIMUM", tree.math("LOGARITHM", more, 4.0), 0.0))
     return tree.node(
         "GeometryNodeSubdivideMesh",

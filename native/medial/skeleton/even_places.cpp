@@ -43,6 +43,15 @@ double EvenPlaces::hole_at(int32_t v) const {
   return most;
 }
 
+// Returns whether all samples of the facets at a vertex are on faces.
+bool EvenPlaces::has_walls(int32_t v) const {
+  bool has = true;
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    for (const int32_t s : generators_[e_.source[t]]) has = has && samples_.triangle(s) >= 0;
+  });
+  return has;
+}
+
 // Returns the feet of a vertex on the walls of its triangles, nearest first; those that are seen in
 // one direction are one.
 std::vector<Foot> EvenPlaces::feet_of(int32_t v) const {
@@ -52,7 +61,7 @@ std::vector<Foot> EvenPlaces::feet_of(int32_t v) const {
   });
   std::sort(walls.begin(), walls.end());
   walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
-  if (walls.empty() || walls.front() < 0) return {};
+  if (walls.empty() || walls.front() < 0) return {};  // no face is known there
   std::vector<Foot> feet, distinct;
   for (const int32_t t : walls) feet.push_back(samples_.faces().descend(t, e_.position[v]));
   std::stable_sort(feet.begin(), feet.end(),
@@ -141,6 +150,8 @@ void EvenPlaces::place(std::span<const int32_t> vertices) {
       placing_[v] = e_.held[v] == kInCorner ? Placing::corner : Placing::crease;
       continue;
     }
+    placing_[v] = Placing::voronoi;
+    if (!has_walls(v)) continue;
     const Touch& ball = found_[v];
     const bool fits = ball.radius > 0 && distance(ball.position, e_.position[v]) < e_.target[v] &&
                       keeps_sides(e_, v, ball.position);
@@ -244,7 +255,11 @@ void EvenPlaces::even_out(std::span<const int32_t> rims, std::vector<double>& st
   for (const int32_t v : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
   take_means(rims, kMeansOfRoughness, rough);
   for (const int32_t v : rims) {
-    if (!(rough[v] < kRough)) step[v] = 0;
+    if (!(rough[v] < kRough)) {
+      step[v] = 0;
+    } else if (raw[v] < 0) {
+      step[v] = std::min(step[v], raw[v]);  // it is beyond the end
+    }
   }
   for (int round = 0; round < kAlongRounds; ++round) {
     for (const int32_t v : rims) {

@@ -33,6 +33,7 @@ class EvenPlaces {
   void join_neighbour(int32_t v);
   std::vector<int32_t> open_rims() const;
   double hole_at(int32_t v) const;
+  bool has_walls(int32_t v) const;
   std::vector<Foot> feet_of(int32_t v) const;
   Walls walls_of(int32_t v) const;
   Touch ball_at(int32_t v) const;

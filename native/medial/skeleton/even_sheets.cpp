@@ -14,8 +14,8 @@ namespace {
 
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
-constexpr double kEdge = 2.8;       // the wanted length of an edge: 1.7 times the distance of samples
-constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
+constexpr double kEdge = 2.8;  // the wanted length of an edge: 1.7 times the distance of samples
+constexpr double kLeastEdge = 1.3;       // in narrow sheets, where there is nothing to gain below
 constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
@@ -143,7 +143,7 @@ class EvenSheets {
     places.place();
     // Rims lose what is uneven in their steps, and what that took off them comes back.
     options.moves_curves = true;
-    for (int i = 0; places.slide() && i < kSlides; ++i) {
+    for (int i = 1; places.slide() && i < kSlides; ++i) {
       places.place_rims();
       one_round(even, options, 0.6 + 0.3 * i / kSlides);
       places.place_rims();
