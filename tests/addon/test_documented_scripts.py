@@ -15,7 +15,7 @@ SCRIPTS = {
     "suzanne.ma": (r"Suzanne Medial Axis: (\d+) vertices, radius", None),
     "memory_limit": (None, 0),
     "primitive_torus_add": (r"\{'FINISHED'\} Torus Medial Axis (\d+)", None),
-    "tight_cocone_surface": (r"scan Medial Axis (\d+) Inside from Tight Cocone", 1_400),
+    "tight_cocone_surface": (r"scan Medial Axis (\d+) Inside from Tight Cocone", None),
 }
 
 
@@ -45,6 +45,7 @@ def test_script(tmp_path, word):
     if printed:
         found = re.search(printed, done.stdout)
         assert found, done.stdout
-        assert int(found[1]) == pytest.approx(count, rel=0.05) if count else int(found[1]) > 0
+        number = int(found[1])
+        assert number == pytest.approx(count, rel=0.05) if count else number > 0, number
     if word.endswith(".ma"):
         assert (tmp_path / word).stat().st_size > 0
