@@ -231,18 +231,6 @@ class Settings(Options):
         "where the faces decide what is inside",
         default=True,
     )
-    mesh: Mesh = choice(
-        "Mesh",
-        "The faces of which sheets consist",
-        default=Mesh.EVEN,
-        items={
-            Mesh.EVEN: ("Even", "Even triangles between shared seams and smooth rims"),
-            Mesh.VORONOI: (
-                "Voronoi",
-                "The facets of the Voronoi diagram of the samples, each between two of them",
-            ),
-        },
-    )
     theta: float = number(
         "Theta",
         "Angle condition: keep a facet when the line between its two samples leaves "
@@ -337,6 +325,18 @@ class Settings(Options):
         "are too close for the size of the shape there. This thins out fins on tubes, but only where "
         "samples are dense: at 8,000 samples it leaves a torus as it is",
         default=False,
+    )
+    mesh: Mesh = choice(
+        "Mesh",
+        "The faces of which sheets consist",
+        default=Mesh.EVEN,
+        items={
+            Mesh.EVEN: ("Even", "Even triangles between shared seams and smooth rims"),
+            Mesh.VORONOI: (
+                "Voronoi",
+                "The facets of the Voronoi diagram of the samples, each between two of them",
+            ),
+        },
     )
     sampling: SamplingMode = choice(
         "Sampling",

@@ -26,8 +26,8 @@ SAMPLING = (
     "seed",
 )
 OPTIONS = (
-    *("form", "simplify", "erode", "spike", "limb", "detail", "crisp", "mesh"),
-    *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
+    *("form", "simplify", "erode", "spike", "limb", "detail", "crisp"),
+    *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set", "mesh"),
     *SAMPLING,
 )
 
