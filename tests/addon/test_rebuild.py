@@ -143,7 +143,9 @@ def test_solids_of_any_size_are_rebuilt(size):
     assert solid == pytest.approx(size * expected, rel=0.03)
     found = volume(evaluated(made)) / size**3
     expected = 1.012 * volume(source.data)  # versions of OpenVDB differ by 0.6 %
-    assert found == pytest.approx(expected, rel=0.012)  # chords of the axis cut off about a hundredth
+    assert found == pytest.approx(
+        expected, rel=0.012
+    )  # chords of the axis cut off about a hundredth
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e-4])
