@@ -491,7 +491,7 @@ def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_no_teeth(crisp, medial
     import medial_axis
 
     mesh = meshes.read(data_file("fandisk_large.off"))
-    made = medial_axis.compute(*mesh, sampling="surface", samples=8_000)
+    made = medial_axis.compute(*mesh, sampling="surface", samples=8_000, mesh="voronoi")
     output = crisp_measures.output_of(made, np.eye(3))
     turns = crisp_measures.rim_turns(output)
     assert turns.mean() < 4.0 and np.mean(turns > 60.0) < 0.005
@@ -509,7 +509,7 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
     points = points * (1.0, 0.4, 1.0)
     a, _, half = np.ptp(points, axis=0) / 2
     curvature = 0.4**2 * a
-    made = medial_axis.compute(points, triangles, sampling="surface", samples=6_000)
+    made = medial_axis.compute(points, triangles, sampling="surface", samples=6_000, mesh="voronoi")
     output = crisp_measures.output_of(made, np.eye(3))
     ends = [(s * (a - curvature), 0.0, t * (half - curvature)) for s in (-1, 1) for t in (-1, 1)]
     assert cKDTree(output.vertices).query(ends)[0].max() < 0.2 * curvature

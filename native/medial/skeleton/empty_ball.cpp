@@ -18,7 +18,7 @@ class BallFinder {
 
   // A wall that the ball sticks out of is added. If there are as many as it may touch, or if it is
   // seen in the direction of a wall already there, that one's foot was not the nearest.
-  Touch find(Walls walls, Vec3 start, size_t most) const {
+  Touch find(Walls walls, Vec3 start, size_t most, bool swaps) const {
     for (int i = 0; i < kMoreWalls; ++i) {
       const Trial trial = tried(walls, start);
       if (!trial.is_ball) return {};
@@ -27,10 +27,10 @@ class BallFinder {
       start = trial.ball.centre;
       walls = trial.walls;
       const auto [wall, apart] = likeliest(trial);
-      if (apart <= kSameFoot || walls.count >= most) {
+      if (apart <= kSameFoot || (swaps && walls.count >= most)) {
         walls.triangle[wall] = trial.nearer->triangle;
-      } else {
-        walls.add(trial.nearer->triangle);
+      } else if (walls.count >= most || !walls.add(trial.nearer->triangle)) {
+        return {};
       }
     }
     return {};
@@ -106,8 +106,8 @@ class BallFinder {
 }  // namespace
 
 Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
-                 const Vec3& start, size_t most) {
-  return BallFinder(samples, near).find(walls, start, most);
+                 const Vec3& start, size_t most, bool swaps) {
+  return BallFinder(samples, near).find(walls, start, most, swaps);
 }
 
 Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,

@@ -43,9 +43,10 @@ struct NearPlace {
 };
 
 // Finds the ball that touches some walls near a place; the search begins at `start`. A wall that it
-// sticks out of is added, up to a number of walls.
+// sticks out of is added, up to a number of walls; then
+// it takes the place of the one that is seen nearest to it, if `swaps`.
 Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
-                 const Vec3& start, size_t most = kMostContacts);
+                 const Vec3& start, size_t most = kMostContacts, bool swaps = false);
 // Finds a ball that touches some walls, although others are as near but for what smooth faces are
 // off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
 // the nearest face. The place is nearer than a distance to the given one.

@@ -111,7 +111,7 @@ Touch EvenPlaces::ball_of_walls(int32_t v) const {
   const Walls walls = walls_of(v);
   if (walls.count < 2) return {};
   const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
-  return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, e_.position[v], most);
+  return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, e_.position[v], most, true);
 }
 
 void EvenPlaces::place() {
