@@ -7,28 +7,16 @@
 Meshes come from the folder in MEDIAL_AXIS_TEST_DATA; ImageMagick's `montage` puts the panes side by side.
 """
 
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
-from contact_sheet import FILES, blender_demo, blender_scene, made
-from small_mesh_picture import arrange, dye, edges_of, render
+from contact_sheet import FILES, made
+from small_mesh_picture import arrange, dye, edges_of, publish, render
 
 BODIES = ("suzanne", "hand", "3holes")
-
-
-def main():
-    archive, picture = sys.argv[sys.argv.index("--") + 1 :]
-    blender_demo.install(archive)
-    with tempfile.TemporaryDirectory() as folder:
-        rows = zip(*(panes_of(body, Path(folder)) for body in BODIES), strict=True)
-        panes = [str(pane) for row in rows for pane in row]
-        tiles = ["-tile", f"{len(BODIES)}x", "-geometry", "+0+0", "-background", "white"]
-        subprocess.run(["montage", *panes, *tiles, "PNG8:" + picture], check=True)
 
 
 def panes_of(body, folder):
@@ -61,5 +49,4 @@ def shape_of(body):
 
 
 if __name__ == "__main__":
-    blender_scene.PIXELS = (420, 330)
-    main()
+    publish(BODIES, panes_of)

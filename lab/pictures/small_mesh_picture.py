@@ -26,12 +26,17 @@ VERTICES = 200
 
 
 def main():
+    publish(BODIES, panes_of)
+
+
+def publish(bodies, panes_of):
+    """Write the picture with a column per body, whose panes are made in a folder."""
     archive, picture = sys.argv[sys.argv.index("--") + 1 :]
     blender_demo.install(archive)
     with tempfile.TemporaryDirectory() as folder:
-        rows = zip(*(panes_of(body, Path(folder)) for body in BODIES), strict=True)
+        rows = zip(*(panes_of(body, Path(folder)) for body in bodies), strict=True)
         panes = [str(pane) for row in rows for pane in row]
-        tiles = ["-tile", f"{len(BODIES)}x", "-geometry", "+0+0", "-background", "white"]
+        tiles = ["-tile", f"{len(bodies)}x", "-geometry", "+0+0", "-background", "white"]
         subprocess.run(["montage", *panes, *tiles, "PNG8:" + picture], check=True)
 
 
