@@ -39,6 +39,14 @@ def test_a_cavity_that_no_sample_reaches_is_told():
     assert found.axis.level.betti == (1, 0, 1) or any("as the faces" in w for w in found.warnings)
 
 
+@pytest.mark.parametrize("size", [1e7, 1e9, 1e37])
+def test_a_shell_too_small_for_the_sampler_takes_no_samples(size):
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=300)
+    alone = compute_axis(shape_of(block(size, size, size)), settings)
+    found = compute_axis(shape_of(with_cavities(block(size, size, size), 1.0)), settings)
+    assert len(found.chosen.samples.points) <= len(alone.chosen.samples.points)
+
+
 def test_cavities_beside_an_edge_of_four_faces():
     mesh = meshes.join(with_cavities(block(10, 10, 10), 0.1, 7), AT_AN_EDGE)
     found = compute_axis(shape_of(mesh), Settings())

@@ -25,6 +25,7 @@ _DISC = 0.727
 # A cell of four samples may have its centre outside of them; a dozen on a closed surface have a cell with its centre
 # inside.
 _OF_SHELL = 12
+_FINEST = 1e-6  # of the extent: the least spacing, which the grid of the sampler can hold
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,12 +158,12 @@ def _of_small_shells(
     small = np.flatnonzero(few[part] & (part >= 0))
     corners = shape.points[shape.triangles[rows[small]]]
     area = np.bincount(part[small], unit_normals(corners)[1] / 2.0, count)
-    seen = area[part[small]] > 0.0
-    if not seen.any():
-        return None
-    small, corners = small[seen], corners[seen]
     spacing = mean_spacing(found.area, max(1, len(found.points)))
     wanted = np.array([mean_spacing(area[shell], _OF_SHELL) for shell in part[small]])
+    seen = wanted > _FINEST * np.max(np.ptp(shape.points, axis=0))
+    if not seen.any():
+        return None
+    wanted, corners = wanted[seen], corners[seen]
     sites, spacings = options.get("sizing", (found.points, np.full(len(found.points), spacing)))
     sizing = (
         np.concatenate((sites, corners.mean(axis=1))),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/progress.h"
 #include "delaunay/cgal.h"
@@ -62,6 +63,15 @@ struct Frame {
   Vec3 out(const Point& p) const { return middle + diagonal * Vec3{p.x(), p.y(), p.z()}; }
 };
 
+// Coordinates of at most one are off by as much, so a thinner triangle has no plane: CGAL may never end on such.
+bool has_area(const Point& a, const Point& b, const Point& c) {
+  const double longest = std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c),
+                                   CGAL::squared_distance(c, a)});
+  const double rounding = std::numeric_limits<double>::epsilon();
+  const Kernel::Vector_3 normal = CGAL::cross_product(b - a, c - a);
+  return normal.squared_length() > rounding * rounding * longest;
+}
+
 Wrapping taken(const Mesh& mesh, const Frame& frame) {
   Wrapping found;
   for (const auto v : mesh.vertices()) found.rows.push_back(frame.out(mesh.point(v)));
@@ -85,11 +95,10 @@ Wrapping wrap(std::span<const Vec3> rows, std::span<const Triangle> triangles, d
   std::vector<Point> points;
   points.reserve(rows.size());
   for (const Vec3& p : rows) points.push_back(frame.in(p));
-  // CGAL leaves out faces without an area, and crashes if no other is left.
   std::vector<std::array<size_t, 3>> faces;
   faces.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    if (CGAL::collinear(points[a], points[b], points[c])) continue;
+    if (!has_area(points[a], points[b], points[c])) continue;
     faces.push_back({static_cast<size_t>(a), static_cast<size_t>(b), static_cast<size_t>(c)});
   }
   if (faces.empty()) throw InvalidInputError("Expected faces to wrap, found none with an area");

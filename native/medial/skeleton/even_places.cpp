@@ -192,7 +192,36 @@ bool EvenPlaces::is_open_rim(int32_t v) const {
 SmoothRim EvenPlaces::way_out(int32_t v) const {
   if (placing_[v] == Placing::refused) return last_ball(v);
   if (placing_[v] != Placing::touching || found_[v].walls.count != 2) return {};
-  return smooth_rim_of(samples_.faces(), hole_at(v), found_[v]);
+  const SmoothRim smooth = smooth_rim_of(samples_.faces(), hole_at(v), found_[v]);
+  return smooth.reach > 0 ? smooth : before_third_wall(v);
+}
+
+// Where a plate ends, a third wall stops the balls between its two sides. The sheets into its edges
+// may be narrower than the samples show.
+SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
+  const Vec3 outward = outward_at(v);
+  const double hole = hole_at(v);
+  const Vec3 far = e_.position[v] + hole * outward;
+  if (ball_between(v, far).radius > 0) return {};
+  const Vec3 last = last_place(v, far);
+  return {outward, distance(last, e_.position[v]), true};
+}
+
+Touch EvenPlaces::ball_between(int32_t v, const Vec3& start) const {
+  return empty_ball(samples_, {start, hole_at(v)}, found_[v].walls, start, 2);
+}
+
+// Returns the last ball's place on the way from a vertex to a place without one.
+Vec3 EvenPlaces::last_place(int32_t v, const Vec3& far) const {
+  double low = 0, high = 1;
+  Vec3 last = e_.position[v];
+  for (int i = 0; i < kHalvingsToLast; ++i) {
+    const double share = 0.5 * (low + high);
+    const Touch ball = ball_between(v, (1 - share) * e_.position[v] + share * far);
+    (ball.radius > 0 ? low : high) = share;
+    if (ball.radius > 0) last = ball.position;
+  }
+  return last;
 }
 
 // A rim that lies beyond the last ball that touches two places goes back to it. The ball is between
@@ -205,23 +234,16 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
     if (inner < 0 || away(other) < away(inner)) inner = other;
   });
   if (inner < 0) return {};
-  double low = 0, high = 1;
-  Vec3 last = e_.position[v];
-  for (int i = 0; i < kHalvingsToLast; ++i) {
-    const double share = 0.5 * (low + high);
-    const Vec3 start = (1 - share) * e_.position[inner] + share * e_.position[v];
-    const Touch ball = empty_ball(samples_, {start, hole_at(v)}, found_[inner].walls, start, 2);
-    (ball.radius > 0 ? low : high) = share;
-    if (ball.radius > 0) last = ball.position;
-  }
+  const Vec3 last = last_place(inner, e_.position[v]);
   const Vec3 way = last - e_.position[v];
-  return low > 0 ? SmoothRim{-normalized(way), length(way)} : SmoothRim{};
+  return last == e_.position[inner] ? SmoothRim{} : SmoothRim{-normalized(way), length(way)};
 }
 
 // The squared sine of half the angle between the feet falls nearly linearly towards the end, where
 // it is 0. Rims go to where it is least, as far as two feet can be told apart.
 double EvenPlaces::step_of(int32_t v, const SmoothRim& way) const {
   if (placing_[v] == Placing::refused) return -way.reach;
+  if (way.at_wall) return way.reach;
   const double open = openness(found_[v].away);
   return open > kRimOpenness ? way.reach * (1 - kRimOpenness / open) : 0;
 }
@@ -249,16 +271,17 @@ void EvenPlaces::take_means(std::span<const int32_t> rims, int rounds,
 
 // Steps that the places of single vertices ask for are noise where the faces are rough. There rims
 // stay where they are smooth; elsewhere they take the means along the rim.
-void EvenPlaces::even_out(std::span<const int32_t> rims, std::vector<double>& step) const {
+void EvenPlaces::even_out(std::span<const int32_t> rims, std::span<const SmoothRim> way,
+                          std::vector<double>& step) const {
   std::vector<double> raw(step), rough(step.size(), NAN);
   take_means(rims, kMeans, step);
   for (const int32_t v : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
   take_means(rims, kMeansOfRoughness, rough);
   for (const int32_t v : rims) {
-    if (!(rough[v] < kRough)) {
+    if (raw[v] < 0 || way[v].at_wall) {
+      step[v] = std::min(step[v], raw[v]);  // there is nothing beyond the end
+    } else if (!(rough[v] < kRough)) {
       step[v] = 0;
-    } else if (raw[v] < 0) {
-      step[v] = std::min(step[v], raw[v]);  // it is beyond the end
     }
   }
   for (int round = 0; round < kAlongRounds; ++round) {
@@ -283,7 +306,7 @@ bool EvenPlaces::slide() {
         if (way[v].reach > 0) step[v] = step_of(v, way[v]);
       },
       kFew);
-  even_out(rims, step);
+  even_out(rims, way, step);
   double most = 0;
   for (const int32_t v : rims) {
     const double limit = kMostSlide * e_.target[v], now = std::clamp(step[v], -limit, limit);

@@ -41,10 +41,14 @@ class EvenPlaces {
   bool is_open_rim(int32_t v) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
+  SmoothRim before_third_wall(int32_t v) const;
+  Touch ball_between(int32_t v, const Vec3& start) const;
+  Vec3 last_place(int32_t v, const Vec3& far) const;
   double step_of(int32_t v, const SmoothRim& way) const;
   void take_means(std::span<const int32_t> rims, int rounds, std::vector<double>& values) const;
   Vec3 outward_at(int32_t v) const;
-  void even_out(std::span<const int32_t> rims, std::vector<double>& step) const;
+  void even_out(std::span<const int32_t> rims, std::span<const SmoothRim> way,
+                std::vector<double>& step) const;
 
   EvenMesh& e_;
   const SamplesOnFaces& samples_;
