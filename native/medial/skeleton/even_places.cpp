@@ -12,6 +12,7 @@ constexpr double kSamePlace = 1e-3;     // of the target length, between places 
 constexpr double kMostSlide = 0.7;      // of the target length that a rim moves at once
 constexpr double kAtEnd = 0.1;          // of the target length: a rim that moves less is at its end
 constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
+constexpr double kPlate = 0.9;          // the openness of a plate with nearly parallel sides
 constexpr double kRimSlope = 0.2;       // of the steps along a rim
 constexpr double kRough = 0.1;          // mean deviation of steps, in target lengths
 constexpr int kMeans = 3, kMeansOfRoughness = 16;
@@ -196,15 +197,19 @@ SmoothRim EvenPlaces::way_out(int32_t v) const {
   return smooth.reach > 0 ? smooth : before_third_wall(v);
 }
 
-// Where a plate ends, a third wall stops the balls between its two sides. The sheets into its edges
-// may be narrower than the samples show.
+// Where a plate ends, a third wall stops the balls between its two sides. If the plate is thinner
+// than the holes between its samples, these show no sheets that go on into its edges.
 SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
+  if (!is_thin_plate(v)) return {};
   const Vec3 outward = outward_at(v);
-  const double hole = hole_at(v);
-  const Vec3 far = e_.position[v] + hole * outward;
+  const Vec3 far = e_.position[v] + hole_at(v) * outward;
   if (ball_between(v, far).radius > 0) return {};
   const Vec3 last = last_place(v, far);
   return {outward, distance(last, e_.position[v]), true};
+}
+
+bool EvenPlaces::is_thin_plate(int32_t v) const {
+  return found_[v].radius < hole_at(v) && openness(found_[v].away) > kPlate;
 }
 
 Touch EvenPlaces::ball_between(int32_t v, const Vec3& start) const {
@@ -236,7 +241,8 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
   if (inner < 0) return {};
   const Vec3 last = last_place(inner, e_.position[v]);
   const Vec3 way = last - e_.position[v];
-  return last == e_.position[inner] ? SmoothRim{} : SmoothRim{-normalized(way), length(way)};
+  if (last == e_.position[inner]) return {};
+  return {-normalized(way), length(way), is_thin_plate(inner)};
 }
 
 // The squared sine of half the angle between the feet falls nearly linearly towards the end, where
@@ -278,10 +284,10 @@ void EvenPlaces::even_out(std::span<const int32_t> rims, std::span<const SmoothR
   for (const int32_t v : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
   take_means(rims, kMeansOfRoughness, rough);
   for (const int32_t v : rims) {
-    if (raw[v] < 0 || way[v].at_wall) {
-      step[v] = std::min(step[v], raw[v]);  // there is nothing beyond the end
-    } else if (!(rough[v] < kRough)) {
+    if (!(rough[v] < kRough) && !way[v].at_wall) {
       step[v] = 0;
+    } else if (raw[v] < 0 || way[v].at_wall) {
+      step[v] = std::min(step[v], raw[v]);  // there is nothing beyond the end
     }
   }
   for (int round = 0; round < kAlongRounds; ++round) {
