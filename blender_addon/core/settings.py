@@ -334,7 +334,8 @@ class Settings(Options):
             Mesh.EVEN: ("Even", "Even triangles between shared seams and smooth rims"),
             Mesh.VORONOI: (
                 "Voronoi",
-                "The facets of the Voronoi diagram of the samples, each between two of them",
+                "The facets of the Voronoi diagram of the samples as they are, each between two of them; "
+                "Crisp moves none",
             ),
         },
     )

@@ -582,27 +582,9 @@ MUTATIONS = (
         "closed chains have ends",
     ),
     Mutation(
-        "skeleton/rims.cpp",
-        "if (dot(area(touched_[t]), upright_[t]) < 0) out",
-        "if (dot(area(touched_[t]), upright_[t]) < -HUGE_VAL) out",
-        "facets fold at relaxed rims",
-    ),
-    Mutation(
-        "skeleton/rim_waves.cpp",
-        "back[i] = back[i] - lost[i];",
-        "back[i] = lost[i] - back[i];",
-        "rims move away from their neighbours",
-    ),
-    Mutation(
-        "skeleton/rim_waves.cpp",
-        "constexpr double kRoundsOfRim = 1.0 / 44;",
-        "constexpr double kRoundsOfRim = 1.0;",
-        "rims of few edges are drawn together",
-    ),
-    Mutation(
-        "skeleton/relax.cpp",
-        "samples.nearest(level.vertices[v], within).distance",
-        "samples.nearest(level.exact[v], within).distance",
+        "skeleton/even_sheets.cpp",
+        "return h_.samples.nearest(place).distance;",
+        "return h_.samples.nearest(level_.exact[i]).distance;",
         "balls of moved vertices are those of the old places",
     ),
     Mutation(

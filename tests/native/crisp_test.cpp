@@ -11,14 +11,12 @@
 #include <random>
 #include <thread>
 
-#include "base/flat_polygon.h"
 #include "base/thread.h"
 #include "contact/closest_place.h"
 #include "contact/convex_creases.h"
 #include "contact/least_distance.h"
 #include "contact/touching_ball.h"
 #include "shapes.h"
-#include "skeleton/focal_line.h"
 #include "skeleton/level.h"
 
 namespace medial {
@@ -237,96 +235,6 @@ TEST(ConvexCreases, OfAFewEdgesAreAFragmentWhereSamplesAreNotMuchCloser) {
   }
 }
 
-TEST(FocalLine, PlacesGoOntoTheirLineAndThoseFarOffHaveNone) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < 40; ++i) places.push_back({0.25 * i, 1e-7 * (i % 3), -1e-7 * (i % 2)});
-  places.push_back({5.1, 0.3, 0});
-  const std::vector<double> spacing(places.size(), 1);
-  const auto found = straightened(places, spacing, {});
-  EXPECT_FALSE(found.back());
-  for (size_t i = 0; i + 1 < places.size(); ++i) {
-    ASSERT_TRUE(found[i]);
-    EXPECT_LT(distance(*found[i], places[i]), 1e-6);
-  }
-}
-
-// A rim runs along four knots, goes back over half a segment and round a flap over a knot.
-TEST(FocalLine, IsCoveredOnceAndFacetsStayBetweenTwoKnots) {
-  std::vector<Vec3> knots{{0, 0, 0}, {1, 0, 0}, {2, 0.1, 0}, {3, 0.1, 0}};
-  std::vector<OnLine> at{{{0, 0}, 0}, {{0, 1}, 0.6}, {{0, 1}, 0.2},  {{1, 2}, 0.5},
-                         {{3, 3}, 0}, {{0, 1}, 0.9}, {{1, 2}, 0.25}, {{2, 3}, 0.5}};
-  const std::vector<Edge> rims{{0, 1}, {1, 2}, {2, 3}, {3, 7}, {4, 7}, {5, 6}};
-  const std::vector<int32_t> web{0, 1, 2, 3, 4, 5, 6, 7};
-  cover_once(knots, rims, web, at);
-  const auto place = [&](int32_t v) {
-    const Vec3 &from = knots[at[v].knots[0]], &to = knots[at[v].knots[1]];
-    return from + at[v].share * (to - from);
-  };
-  double length = 0;
-  for (const auto& [a, b] : rims) length += distance(place(a), place(b));
-  EXPECT_NEAR(length, distance(place(0), place(4)), 0.01);
-  EXPECT_EQ(place(1), place(2));
-  EXPECT_EQ(place(5), place(6));
-  EXPECT_EQ(place(0), (Vec3{0, 0, 0}));
-  EXPECT_EQ(place(4), (Vec3{3, 0.1, 0}));
-}
-
-// A rim goes once round a ring of knots, two vertices between each two of them; `gap` are segments
-// without vertices at its end, over which an edge of the rim leads.
-void expect_that_a_ring_stays(int32_t gap) {
-  const int32_t count = 12;
-  std::vector<Vec3> knots;
-  for (int32_t k = 0; k < count; ++k) {
-    knots.push_back({std::cos(std::numbers::pi * k / 6), std::sin(std::numbers::pi * k / 6), 0});
-  }
-  std::vector<OnLine> at;
-  for (int32_t k = 0; k < count - gap; ++k) {
-    const int32_t next = (k + 1) % count;
-    for (const double share : {0.3, 0.7}) {
-      at.push_back(k < next ? OnLine{{k, next}, share} : OnLine{{next, k}, 1 - share});
-    }
-  }
-  std::vector<int32_t> web;
-  std::vector<Edge> rims;
-  const auto vertices = static_cast<int32_t>(at.size());
-  for (int32_t v = 0; v < vertices; ++v) {
-    web.push_back(v);
-    rims.push_back({v, (v + 1) % vertices});
-  }
-  const std::vector<OnLine> before = at;
-  cover_once(knots, rims, web, at);
-  for (const int32_t v : web) {
-    EXPECT_EQ(at[v].knots, before[v].knots) << gap;
-    EXPECT_NEAR(at[v].share, before[v].share, 1e-12) << gap;
-  }
-}
-
-TEST(FocalLine, OfARingIsNotDrawnTogether) {
-  for (const int32_t gap : {0, 1, 2}) expect_that_a_ring_stays(gap);
-}
-
-TEST(FlatPolygon, TellsFoldsFromDents) {
-  const std::vector<FlatPoint> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_FALSE(is_turned_over(square) || turns_back(square) || crosses_itself(square));
-  const std::vector<FlatPoint> over{{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-  EXPECT_TRUE(is_turned_over(over));
-  const std::vector<FlatPoint> bow{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
-  EXPECT_TRUE(crosses_itself(bow));
-  const std::vector<FlatPoint> back{{0, 0}, {1, 0}, {0.5, 0}, {0.5, 1}};
-  EXPECT_TRUE(turns_back(back));
-  const std::vector<FlatPoint> dented{{0, 0}, {0.5, 0.4}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_TRUE(has_dent(dented, 0.25));
-  EXPECT_FALSE(is_turned_over(dented) || turns_back(dented) || crosses_itself(dented));
-}
-
-TEST(FlatPolygon, TellsLines) {
-  const std::vector<FlatPoint> line{{0.1, 0.3}, {0.2, 0.6}, {0.1, 0.3}, {1, 3}, {0.3, 0.9}};
-  EXPECT_TRUE(is_on_line(line));
-  EXPECT_TRUE(is_on_line(std::vector<FlatPoint>(4, {0.1, 0.3})));
-  const std::vector<FlatPoint> sliver{{0, 0}, {1, 0}, {2, 1e-7}};
-  EXPECT_FALSE(is_on_line(sliver));
-}
-
 struct CrispBox {
   SurfaceSamples samples;
   std::optional<Hierarchy> hierarchy;
@@ -340,7 +248,7 @@ struct CrispBox {
     hierarchy.emplace(analysis.hierarchy({}, Side::inner, 1, nullptr, &faces));
   }
   Level level() const {
-    return hierarchy->extract({.spacings = 1, .round_limbs = true, .relaxed = true, .crisp = true});
+    return hierarchy->extract({.spacings = 1, .round_limbs = true, .crisp = true});
   }
 };
 
@@ -429,27 +337,7 @@ TEST(Crisp, TheCurveOfAConeEndsInItsTip) {
   }
 }
 
-TEST(Crisp, ASmoothRimIsWhereTheSheetEndsAndDoesNotTurnBack) {
-  const Level level = crisp_level(oblate(), 2);
-  std::map<Edge, int> uses;
-  for (size_t f = 0; f + 1 < level.face_offsets.size(); ++f) {
-    for (int32_t c = level.face_offsets[f]; c < level.face_offsets[f + 1]; ++c) {
-      const int32_t next = c + 1 < level.face_offsets[f + 1] ? c + 1 : level.face_offsets[f];
-      const int32_t a = level.face_vertices[c], b = level.face_vertices[next];
-      ++uses[{std::min(a, b), std::max(a, b)}];
-    }
-  }
-  double rim = 0;
-  for (const auto& [edge, count] : uses) {
-    const Vec3 &a = level.vertices[edge[0]], &b = level.vertices[edge[1]];
-    if (count != 1) continue;
-    rim += distance(a, b);
-    EXPECT_NEAR(length(a), 0.75, 0.01);
-  }
-  EXPECT_NEAR(rim, 2 * std::numbers::pi * 0.75, 0.05);
-}
-
-TEST(Crisp, RimsAndTipsAreTheSameForEveryThreadCount) {
+TEST(Crisp, PlacesAndTipsAreTheSameForEveryThreadCount) {
   for (const test::Mesh& mesh : {cone(), oblate()}) {
     const Level one = crisp_level(mesh, 1), three = crisp_level(mesh, 3);
     EXPECT_EQ(one.vertices, three.vertices);
@@ -498,20 +386,20 @@ TEST(Crisp, HasMostOfTheBar) {
   const FacesInput faces{mesh.vertices, mesh.triangles, made.samples.triangle};
   Progress progress;
   std::atomic<bool> ended{false};
-  double most = 0;  // of the bar before the stage of rims
+  double most = 0;  // of the bar before the places
   {
     const Thread watcher([&] {
       while (!ended) {
         const double fraction = progress.fraction();
         const std::string stage = progress.stage();
-        if (stage == "Folds") return;
-        if (stage != "Rims") most = std::max(most, fraction);
+        if (stage == "Crisp places") return;
+        most = std::max(most, fraction);
       }
     });
     analysis.hierarchy({}, Side::inner, 1, &progress, &faces);
     ended = true;
   }
-  EXPECT_LT(most, 0.6);
+  EXPECT_LT(most, 0.4);
   EXPECT_EQ(progress.fraction(), 1);
 }
 

@@ -16,8 +16,6 @@
 #include "skeleton/curves.h"
 #include "skeleton/fringe.h"
 #include "skeleton/level.h"
-#include "skeleton/rim_waves.h"
-#include "skeleton/rims.h"
 #include "skeleton/wires.h"
 
 namespace medial {
@@ -383,70 +381,6 @@ TEST(Canal, AsSteepAsAllThatIsNotFitted) {
   EXPECT_EQ(fit_canal(PointTree(cone), from, 0.2).trust, 0);
 }
 
-TEST(Rims, RelaxAndNeverFold) {
-  // A fan of triangles with a deep notch: its tip would cross over the hub.
-  std::vector<Vec3> places{{0, 0, 0}};
-  std::vector<int32_t> corners, offsets{0};
-  std::vector<Edge> rims;
-  const int count = 12;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / count, size = i % 2 ? 0.2 : 1;
-    places.push_back({size * std::cos(angle), size * std::sin(angle), 0});
-    const int32_t next = (i + 1) % count + 1;
-    corners.insert(corners.end(), {0, i + 1, next});
-    offsets.push_back(static_cast<int32_t>(corners.size()));
-    rims.push_back({i + 1, next});
-  }
-  const auto before = places;
-  const auto moved = relax_rims({offsets, corners}, rims, places, {2});
-  EXPECT_EQ(moved.size(), static_cast<size_t>(count));
-  EXPECT_EQ(places[0], before[0]);
-  EXPECT_LT(length(places[1]), 0.9);
-  EXPECT_GT(length(places[2]), 0.3);
-  for (int i = 0; i < count; ++i) {
-    const Vec3 &a = places[corners[3 * i + 1]], &b = places[corners[3 * i + 2]];
-    EXPECT_GT(cross(a, b).z, 0);
-  }
-}
-
-// Returns the radii of a closed rim round the origin after its short waves are gone; `waves` of
-// them were there.
-std::vector<double> radii_without_waves(int count, int waves) {
-  std::vector<Vec3> places;
-  std::vector<int32_t> moving;
-  std::vector<Edge> edges;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / count,
-                 size = 1 + 0.05 * std::cos(waves * angle);
-    places.push_back({size * std::cos(angle), size * std::sin(angle), 0});
-    moving.push_back(i);
-    edges.push_back({(i + count - 1) % count, (i + 1) % count});
-  }
-  const RimWaves rim(moving, {edges.begin(), edges.end()}, places.size(), 40);
-  const std::vector<Vec3> moves = rim.moves(places);
-  std::vector<double> radii;
-  for (int i = 0; i < count; ++i) radii.push_back(length(places[i] + moves[i]));
-  return radii;
-}
-
-TEST(RimWaves, ShortOnesGoAndTheRimIsNotDrawnIn) {
-  for (const double radius : radii_without_waves(240, 40)) EXPECT_NEAR(radius, 1, 2e-3);
-  const auto few = radii_without_waves(240, 2);
-  EXPECT_NEAR(*std::max_element(few.begin(), few.end()), 1.05, 1e-3);
-  for (const double radius : radii_without_waves(8, 0)) EXPECT_GT(radius, 0.9);
-}
-
-TEST(Rims, DoNotPassTheHubOfAFan) {
-  // The middle of the first vertex's neighbours lies far beyond the hub.
-  std::vector<Vec3> places{{0, 0, 0}, {1, 0, 0}, {-2.6, 1.5, 0}, {-2.6, -1.5, 0}};
-  const std::vector<int32_t> corners{0, 1, 2, 0, 2, 3, 0, 3, 1}, offsets{0, 3, 6, 9};
-  const std::vector<Edge> rims{{1, 2}, {2, 3}, {3, 1}};
-  relax_rims({offsets, corners}, rims, places, {2});
-  for (int f = 0; f < 3; ++f) {
-    EXPECT_GT(cross(places[corners[3 * f + 1]], places[corners[3 * f + 2]]).z, 0);
-  }
-}
-
 TEST(Hierarchy, ARelaxedTorusIsOneClosedCurve) {
   const Level circle =
       hierarchy_of(test::torus(60, 30), 2).extract({.sheet = 1, .limb = 1, .relaxed = true});
@@ -462,7 +396,7 @@ TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
   const auto points = test::ellipsoid(1500, 3);
   const Level level = MedialAnalysis({points}, {.threads = 2}, nullptr)
                           .hierarchy({})
-                          .extract({.limb = 1, .relaxed = true});
+                          .extract({.limb = 1, .relaxed = true, .even = true});
   ASSERT_FALSE(level.vertices.empty());
   int moved = 0;
   for (size_t v = 0; v < level.vertices.size(); ++v) {

@@ -457,12 +457,15 @@ def test_more_volume_than_the_solid_has_is_told():
     assert middle._left_out(1.04, 0.1, 0.01) == ()
 
 
-def test_tips_that_samples_miss_are_told():
-    """All of it is thin, so what is missing is not said to be thick."""
+def test_tips_that_are_narrower_than_samples_are_apart_are_reached():
     found = sheets_of(star(12, 0.005), Settings(samples=1000))
-    assert 0.8 < found.share < 0.99 and np.median(found.thickness) == pytest.approx(0.005)
-    told = [text for text in found.warnings if "of the volume" in text]
-    assert len(told) == 1 and "tips that are narrower than samples are apart, 0.0" in told[0]
+    assert found.share == pytest.approx(1.0) and np.median(found.thickness) == pytest.approx(0.005)
+
+
+def test_what_samples_miss_is_told():
+    """All of it is thin, so what is missing is not said to be thick."""
+    (said,) = middle._left_out(0.9, 0.005, 0.03)
+    assert "tips that are narrower than samples are apart, 0.03" in said
 
 
 def test_a_sheet_that_touches_itself_is_divided():

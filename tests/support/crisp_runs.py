@@ -24,7 +24,7 @@ class Case:
     single: bool = False
     as_is: bool = False
     form: str = "clean"
-    mesh: str = "voronoi"
+    mesh: str = "even"
 
     def __str__(self) -> str:
         return f"{self.name}-{self.count}-{self.seed}{'-float32' * self.single}"

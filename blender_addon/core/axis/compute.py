@@ -117,7 +117,8 @@ def compute_axis(
     limit : MemoryLimit
         The memory that the analysis may need, and the reaction when it needs more.
     relaxed : bool
-        Whether rims and curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them.
+        Whether curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them; else the vertices of
+        facets of the Voronoi diagram have crisp places.
 
     Raises
     ------

@@ -42,7 +42,7 @@ def extract(
 ) -> MedialAxis:
     """Extract the axis that the settings select, in the form that they have for their side.
 
-    Rims and curves of the forms CLEAN and CURVE are smoothed if it is relaxed.
+    Curves of the forms CLEAN and CURVE are smoothed if it is relaxed; else facets have crisp places.
 
     Raises
     ------

@@ -36,7 +36,7 @@ _INNER = 1  # value of `_medial.Side`
 
 
 def hierarchy_of(
-    samples: AnalysedSamples, settings: Settings, progress: Any | None, places: bool = True
+    samples: AnalysedSamples, settings: Settings, progress: Any | None, places: bool = False
 ) -> Any:
     """Return the `_medial.Hierarchy` of analysed samples; the cache learns that they have grown.
 
@@ -47,7 +47,7 @@ def hierarchy_of(
         Only `theta`, `rho`, `rule` and `criteria` matter, and `crisp` with `sharp_angle` and `smooth`.
     progress : _medial.Progress or None
     places : bool
-        Whether its vertices need crisp places, where the faces give any.
+        Whether its vertices need crisp places, where the faces give any; even meshes have their own.
 
     Raises
     ------
@@ -65,16 +65,14 @@ def hierarchy_of(
 def extract_level(
     samples: AnalysedSamples, settings: Settings, progress: Progress | None, relaxed: bool = True
 ) -> MedialAxis:
-    """Extract the axis in the form CLEAN or CURVE, with smoothed rims and curves if it is relaxed.
+    """Extract the axis in the form CLEAN or CURVE: with smoothed curves if it is relaxed, else facets at crisp places.
 
     Raises
     ------
     OutOfMemoryError, Cancelled
     """
     wanted = _wanted(settings)
-    hierarchy = hierarchy_of(
-        samples, settings, progress and progress.part(0.6), not wanted.get("even", False)
-    )
+    hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.6), not relaxed)
     with native.own_errors():
         level = hierarchy.extract(**wanted, relaxed=relaxed, progress=progress and progress.part())
     ranges, gap = samples.levels.kept("sliders", hierarchy, _of_sliders)

@@ -186,7 +186,7 @@ def _balls_of(
     progress: Progress,
 ) -> tuple[Balls, NDArray[np.float64], int]:
     """Return balls, the shares that the first ones hold, and the number of places."""
-    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part(), places=True)
     progress.until(1.0)
     centres, radii = _balls(hierarchy)
     surface = _surface(shape, chosen)
@@ -204,7 +204,7 @@ def _capsules_of(
     progress: Progress,
 ) -> tuple[Balls, NDArray[np.float64], int]:
     """Return capsules that began as more balls, no shares, and the number of places."""
-    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part(), places=True)
     progress.until(_MANY)
     surface = _surface(shape, chosen)
     tapered = wanted.shapes is CoverShapes.TAPERED

@@ -33,10 +33,10 @@ struct LevelOptions {
   double spike = 0;          // least thickness of a disc of its sheet round it, likewise
   double limb = 0.04;        // least length of its branch, likewise; vertices and edges only
   bool round_limbs = false;  // keep wires with a loose end only in round limbs
-  // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.
+  // Wires are smoothed, divided anew and fitted to the samples round them.
   bool relaxed = false;
-  // Vertices are where balls touch the faces, if the hierarchy has any: its crisp places, or if
-  // `even` those of the even mesh.
+  // Vertices of even meshes are where balls touch the faces, if the hierarchy has any, and so are
+  // those of facets that are not relaxed, if it has crisp places. Curves end in the tips of cones.
   bool crisp = false;
   // Sheets are even triangles in place of the facets of the Voronoi diagram.
   bool even = false;

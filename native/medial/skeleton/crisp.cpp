@@ -4,8 +4,6 @@
 namespace medial {
 namespace {
 
-constexpr double kBarOfRims = 0.55, kBarOfFolds = 0.7;
-
 // Facets of K1 that noise of the samples may have caused keep their places.
 bool is_certain(const Thickness& value) {
   return value.sheet > 0 && value.spacings > 1 && value.erosion > 0;
@@ -26,8 +24,6 @@ void place(CrispState& state, int32_t v) {
   state.made.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
   if (!(found.radius > 0)) return;
   state.take(v, found);
-  if (state.on_rim[v] && found.walls.count == 2)
-    state.smooth_rim[v] = smooth_rim_of(state.samples.faces(), state.spacing_at(v), found);
 }
 
 }  // namespace
@@ -35,7 +31,7 @@ void place(CrispState& state, int32_t v) {
 CrispState::CrispState(const InnerComplex& of, const Triangulation& cells,
                        const SamplesOnFaces& on_faces, std::span<const Thickness> values,
                        std::span<const double> sines, std::span<const uint8_t> selected,
-                       std::span<const uint8_t> edges, const Run& whole)
+                       const Run& whole)
     : complex(of),
       triangulation(cells),
       samples(on_faces),
@@ -44,16 +40,11 @@ CrispState::CrispState(const InnerComplex& of, const Triangulation& cells,
       progress(whole.progress) {
   find_facets(values);
   find_rims();
-  find_wires(edges);
   find_hidden(selected);
   made.position = {complex.position.begin(), complex.position.end()};
   made.radius = {complex.radius.begin(), complex.radius.end()};
   made.place = Array<Placing>(complex.cell.size(), Placing::voronoi);
-  made.reach = samples.reach();
-  made.tips = tips_of(samples.faces());
   walls = array<Walls>(complex.cell.size(), Walls{}, run);
-  smooth_rim = array<SmoothRim>(complex.cell.size(), SmoothRim{}, run);
-  stays = array<uint8_t>(complex.cell.size(), 0, run);
 }
 
 // Lists the facets of K1 at each vertex, and counts those at each edge.
@@ -74,26 +65,9 @@ void CrispState::find_facets(std::span<const Thickness> values) {
 }
 void CrispState::find_rims() {
   on_rim = array<uint8_t>(complex.cell.size(), 0, run);
-  on_seam = array<uint8_t>(complex.cell.size(), 0, run);
-  std::vector<Edge> pairs;
   for (size_t e = 0; e < complex.ends.size(); ++e) {
-    const auto& [a, b] = complex.ends[e];
-    if (edge_uses[e] == 3) on_seam[a] = on_seam[b] = 1;
     if (edge_uses[e] != 1) continue;
-    on_rim[a] = on_rim[b] = 1;
-    pairs.push_back({a, b});
-    pairs.push_back({b, a});
-  }
-  std::sort(pairs.begin(), pairs.end());
-  beside = csr_of_pairs(pairs, complex.cell.size(), run);
-}
-
-void CrispState::find_wires(std::span<const uint8_t> edges) {
-  for (size_t e = 0; e < edges.size(); ++e) {
-    if (!edges[e] || edge_uses[e] > 0) continue;
-    const auto& [a, b] = complex.ends[e];
-    if (!facets_at[a].empty() && facets_at[b].empty()) wires.push_back({a, b});
-    if (!facets_at[b].empty() && facets_at[a].empty()) wires.push_back({b, a});
+    for (const int32_t v : complex.ends[e]) on_rim[v] = 1;
   }
 }
 
@@ -125,49 +99,23 @@ void CrispState::take(int32_t v, const Touch& found) {
   walls[v] = found.walls;
 }
 
-void CrispState::end_at(int32_t v, const Vec3& place) {
-  const auto foot = samples.faces().nearer(place, HUGE_VAL);
-  if (!samples.are_near(foot->point)) return;
-  made.position[v] = place;
-  made.radius[v] = foot->distance;
-  made.place[v] = Placing::rim;
-}
-
-bool CrispState::is_open_rim(int32_t v) const {
-  const Placing place = made.place[v];
-  if (!on_rim[v] || place >= Placing::crease || place == Placing::voronoi) return false;
-  return place == Placing::rim ? made.radius[v] > 0 : !on_seam[v];
-}
-
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,
-                         std::span<const uint8_t> edges, const Run& run) {
-  begin_stage(run.progress, "Crisp places", kBarOfCrispPlaces, kBarOfRims);
-  CrispState state(complex, triangulation, samples, facets, sine, selected, edges, run);
+                         const Run& run) {
+  begin_stage(run.progress, "Crisp places", kBarOfCrispPlaces, 1);
+  CrispState state(complex, triangulation, samples, facets, sine, selected, run);
   CreaseRims creases(state);
-  const Array<uint8_t> dense = dense_vertices(state);
   parallel_for(
       complex.vertices(), {run.threads, state.progress, run.arena},
       [&](int64_t id) {
         const auto v = static_cast<int32_t>(id);
         if (state.facets_at[v].empty()) return;
         const bool on_crease = state.on_rim[v] && creases.onto_crease(v);
-        if (!on_crease && !dense[v]) place(state, v);
+        if (!on_crease) place(state, v);
       },
       256);
-  begin_stage(run.progress, "Rims", kBarOfRims, kBarOfFolds);
-  settle_smooth_rims(state);
-  end_fillets(state);
-  order_rims(state);
-  gather_focal_rims(state);
   creases.reach_corners();
-  creases.smooth_zigzags();
-  join_seams(state);
-  end_wires(state);
-  begin_stage(run.progress, "Folds", kBarOfFolds, 1);
-  unfold(state);
-  contract_folds(state);
   return std::move(state.made);
 }
 
@@ -178,7 +126,7 @@ Array<uint8_t> vertices_on_creases(const InnerComplex& complex, const Triangulat
   if (samples.creases().empty()) return found;
   const Run quiet{run.threads, nullptr, run.arena};
   const std::vector<uint8_t> none(complex.shrunk.size(), 0);
-  CrispState state(complex, triangulation, samples, facets, {}, none, {}, quiet);
+  CrispState state(complex, triangulation, samples, facets, {}, none, quiet);
   CreaseRims creases(state);
   parallel_for(complex.vertices(), quiet, [&](int64_t v) {
     found[v] = state.on_rim[v] && creases.onto_crease(static_cast<int32_t>(v)) &&

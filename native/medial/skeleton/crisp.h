@@ -16,21 +16,18 @@ namespace medial {
 inline constexpr double kBarOfCrispPlaces = 0.32;
 
 struct CrispPlaces {
-  Array<Vec3> position;    // (v)
-  Array<double> radius;    // (v) the distance to the faces, unless `place` is voronoi or refused
-  Array<Placing> place;    // (v)
-  std::vector<Vec3> tips;  // of the faces, where curves end
-  double reach = 0;        // the distance within which a sample is near a place of the faces
+  Array<Vec3> position;  // (v)
+  Array<double> radius;  // (v) the distance to the faces, unless `place` is voronoi or refused
+  Array<Placing> place;  // (v)
 };
 
 // Returns the places of the vertices of a complex, at facets that are thicker than one spacing;
-// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected,
-// and `edges` for each edge whether it is left.
+// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected.
 // The distance to the faces was verified for every vertex that moved.
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,
-                         std::span<const uint8_t> edges, const Run& run);
+                         const Run& run);
 
 // Returns for each vertex whether a rim there ends on a convex crease.
 Array<uint8_t> vertices_on_creases(const InnerComplex& complex, const Triangulation& triangulation,

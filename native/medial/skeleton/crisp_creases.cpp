@@ -9,9 +9,6 @@ constexpr double kNearCrease = 8;      // the largest ball of a rim that ends in
 constexpr double kNearAccident = 3.5;  // the same of one that may be no crease
 constexpr double kNearCorner = 2.5;    // from the end of a rim to a corner of the solid
 constexpr double kSameCrease = 0.85;   // the cosine between creases of one direction
-constexpr double kAtFace = 1e-3;       // from a face to a place that is on it
-constexpr int kStepsToFace = 16;       // to the end of a sheet at most
-constexpr int kZigzagRounds = 12;      // of steps towards the middle of the neighbours
 
 }  // namespace
 
@@ -29,7 +26,6 @@ bool CreaseRims::onto_crease(int32_t v) {
   const double spacing = c_.spacing_at(v);
   if (!(c_.complex.radius[v] < kNearCrease * spacing)) return false;
   std::optional<PlaceOnCrease> nearest;
-  int32_t facet = -1;
   bool at_corner = false, ends = false;
   for (const int32_t f : c_.facets_at[v]) {
     const auto found = c_.samples.crease_between(c_.complex.generators[f], c_.complex.position[v]);
@@ -41,16 +37,13 @@ bool CreaseRims::onto_crease(int32_t v) {
     if (!nearest || distance(found->point, c_.complex.position[v]) <
                         distance(nearest->point, c_.complex.position[v])) {
       nearest = found;
-      facet = f;
     }
   }
   if (!nearest || !ends) return false;
-  const bool jagged = c_.samples.creases().is_jagged(nearest->edge);
-  c_.made.position[v] =
-      jagged ? end_between(c_.complex.generators[facet], v, nearest->point) : nearest->point;
+  c_.made.position[v] = nearest->point;
   c_.made.radius[v] = 0;
-  c_.made.place[v] = jagged ? Placing::rim : Placing::crease;
-  if (at_corner && !jagged) onto_corner(v, kNearCrease * spacing);
+  c_.made.place[v] = Placing::crease;
+  if (at_corner) onto_corner(v, kNearCrease * spacing);
   return true;
 }
 
@@ -65,27 +58,11 @@ bool CreaseRims::ends_at(int32_t facet, int32_t v) const {
   return false;
 }
 
-// A zigzag stands for the line in which the planes beside it meet. The sheet ends on the way to
-// that line, where it comes to a face; the zigzag itself would bend the sheet to and fro.
-Vec3 CreaseRims::end_between(const Edge& samples, int32_t v, const Vec3& on_crease) const {
-  const auto meeting = c_.samples.meeting_of_planes(samples, c_.complex.position[v]);
-  if (!meeting) return on_crease;
-  Vec3 here = c_.complex.position[v];
-  double left = distance(here, *meeting);
-  const Vec3 way = normalized(*meeting - here);
-  for (int i = 0; i < kStepsToFace && left > 0; ++i) {
-    const double room = c_.samples.faces().nearer(here, HUGE_VAL)->distance;
-    if (room < kAtFace * c_.spacing_at(v)) break;
-    here = here + std::min(room, left) * way;
-    left -= room;
-  }
-  return here;
-}
-
-// Sharp edges that divide nothing are often accidents of a coarse mesh.
+// Sharp edges that divide nothing are often accidents of a coarse mesh, and a zigzag only stands
+// for a line, which is elsewhere.
 double CreaseRims::reach_of(const PlaceOnCrease& place) const {
   const ConvexCreases& creases = c_.samples.creases();
-  if (creases.is_fragment(place.edge)) return 0;
+  if (creases.is_fragment(place.edge) || creases.is_jagged(place.edge)) return 0;
   return creases.divides(place.edge) ? kNearCrease : kNearAccident;
 }
 
@@ -130,40 +107,6 @@ void CreaseRims::reach_corners() {
     c_.made.position[v] = corner_points_[c];
     c_.made.place[v] = Placing::corner;
   }
-}
-
-// Returns the vertices of rims that end in zigzags, and those between two of these that have found
-// no end, which go to the middle of the two first.
-std::vector<int32_t> CreaseRims::on_zigzags() {
-  const auto ends = [&](int32_t v) {
-    return c_.made.place[v] == Placing::rim && c_.made.radius[v] == 0;
-  };
-  std::vector<int32_t> found;
-  for (int32_t v = 0; v < c_.complex.vertices(); ++v) {
-    const auto beside = c_.beside[v];
-    if (beside.size() != 2) continue;
-    const bool is_gap = c_.is_open_rim(v) && ends(beside[0]) && ends(beside[1]);
-    if (is_gap) {
-      c_.made.position[v] = 0.5 * (c_.made.position[beside[0]] + c_.made.position[beside[1]]);
-    }
-    if (is_gap || ends(v)) found.push_back(v);
-  }
-  return found;
-}
-
-void CreaseRims::smooth_zigzags() {
-  const std::vector<int32_t> moving = on_zigzags();
-  std::vector<Vec3> next(moving.size());
-  for (int round = 0; round < kZigzagRounds; ++round) {
-    throw_if_cancelled(c_.progress);
-    for (size_t i = 0; i < moving.size(); ++i) {
-      const auto& at = c_.made.position;
-      const auto beside = c_.beside[moving[i]];
-      next[i] = 0.5 * at[moving[i]] + 0.25 * (at[beside[0]] + at[beside[1]]);
-    }
-    for (size_t i = 0; i < moving.size(); ++i) c_.made.position[moving[i]] = next[i];
-  }
-  for (const int32_t v : moving) c_.end_at(v, c_.made.position[v]);
 }
 
 }  // namespace medial

@@ -238,9 +238,8 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   if (made.on_faces && places) {
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
-    const Alive left = alive_at(made, {.spacings = 1}, {run.threads, nullptr, run.arena});
     made.crisp = crisp_places(made.complex, facets.triangulation, *made.on_faces, made.values.facet,
-                              made.sine, selected, left.edge, run);
+                              made.sine, selected, run);
     watch.lap("crisp");
   } else {
     begin_stage(run.progress, "Values", bar.crisp, 1);

@@ -50,14 +50,6 @@ class Drawer {
     return std::move(level_);
   }
 
-  // Returns the edges with exactly one facet; call it after draw().
-  std::vector<Edge> rims() const {
-    return parallel_append<Edge>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
-      const auto& [a, b] = complex_.ends[e];
-      if (used_[e] == 1) out.push_back({number_[a], number_[b]});
-    });
-  }
-
  private:
   bool is_loop(int32_t edge) const { return complex_.ends[edge][0] == complex_.ends[edge][1]; }
 
@@ -329,14 +321,12 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
-  const bool crisp = options.crisp && !options.even && !h.crisp.place.empty();
-  Drawer drawer(h, alive, crisp, quiet);
-  Level level = drawer.draw();
+  const bool crisp = options.crisp && !options.even && !options.relaxed && !h.crisp.place.empty();
+  Level level = Drawer(h, alive, crisp, quiet).draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
   if (options.even) make_even(level, h, options.crisp, run);
-  if (options.relaxed)
-    relax(level, options.even ? std::vector<Edge>{} : drawer.rims(), h, crisp, run);
+  if (options.relaxed) relax(level, h, options.crisp, run);
   advance(run.progress, 1);
   return level;
 }

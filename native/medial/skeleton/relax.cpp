@@ -2,22 +2,9 @@
 #include "skeleton/relax.h"
 
 #include "skeleton/curves.h"
-#include "skeleton/rims.h"
 
 namespace medial {
 namespace {
-
-// Smooths the rims. The balls of moved vertices touch the nearest samples, as all other balls do.
-void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samples,
-                 const Run& run) {
-  const auto moved =
-      relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
-  parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
-    const int32_t v = moved[i];
-    const double within = level.exact_radius[v] + distance(level.vertices[v], level.exact[v]);
-    level.radius[v] = samples.nearest(level.vertices[v], within).distance;
-  });
-}
 
 constexpr double kNearTip = 4;      // spacings from the loose end of a curve to the tip of a cone
 constexpr double kClearOfTip = 3;   // spacings from a tip to where samples determine the curve
@@ -71,35 +58,19 @@ class Tips {
   const Faces& faces_;
 };
 
-// Returns the rims without those at vertices that lie on creases, or at the end of a smooth sheet.
-std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
-                                 const CrispPlaces& crisp) {
-  std::vector<Edge> off;
-  const auto is_free = [&](int32_t v) {
-    const Placing place = crisp.place[level.vertex_of[v]];
-    return place < Placing::rim || (place == Placing::rim && level.radius[v] == 0);
-  };
-  for (const Edge& rim : rims) {
-    if (is_free(rim[0]) && is_free(rim[1])) off.push_back(rim);
+// Returns the points in which smooth faces end, as in the tip of a cone.
+std::vector<Vec3> tips_of(const Faces& faces) {
+  const auto& mesh = faces.mesh();
+  std::vector<uint8_t> on_crease(mesh.points.size(), 0);
+  for (const MeshEdge& edge : faces.creases().edges) {
+    if (edge.crease == Crease::none) continue;
+    for (const int32_t end : edge.ends) on_crease[end] = 1;
   }
-  return off;
-}
-
-// Does the same at crisp places, where balls end at the faces. A vertex whose place was refused
-// still ends at the samples: there may be faces that do not bound the solid.
-void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h,
-                       const Run& run) {
-  const auto moved =
-      relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
-  parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
-    const int32_t v = moved[i];
-    if (h.crisp.place[level.vertex_of[v]] >= Placing::touching) {
-      const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);
-      level.radius[v] = foot->distance;
-      if (h.samples.nearest(foot->point).distance <= h.crisp.reach) return;
-    }
-    level.radius[v] = h.samples.nearest(level.vertices[v]).distance;
-  });
+  std::vector<Vec3> tips;
+  for (size_t p = 0; p < mesh.points.size(); ++p) {
+    if (faces.creases().corner[p] && !on_crease[p]) tips.push_back(mesh.points[p]);
+  }
+  return tips;
 }
 
 // Returns the chains of a level; they end at facets and at vertices with other than two wires.
@@ -209,23 +180,18 @@ class Rewirer {
 
 }  // namespace
 
-void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, bool crisp,
-           const Run& run) {
-  const Run quiet{run.threads, nullptr, run.arena};
-  begin_stage(run.progress, "Rims", 0.6, 0.7);
-  if (crisp) {
-    smooth_crisp_rims(level, rims_to_smooth(level, rims, h.crisp), h, quiet);
-  } else {
-    smooth_rims(level, rims, h.samples, quiet);
-  }
-  begin_stage(run.progress, "Curves", 0.7, 1);
+void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& run) {
+  begin_stage(run.progress, "Curves", 0.6, 1);
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);
   auto curves = fit_curves(chains, level.vertices, h.samples, run);
-  for (size_t c = 0; crisp && c < chains.size(); ++c) {
-    const Tips tips(h.crisp.tips, *h.faces);
-    if (chains[c].loose[0]) tips.end(curves[c], true);
-    if (chains[c].loose[1]) tips.end(curves[c], false);
+  if (to_faces && h.faces) {
+    const std::vector<Vec3> places = tips_of(*h.faces);
+    const Tips tips(places, *h.faces);
+    for (size_t c = 0; c < chains.size(); ++c) {
+      if (chains[c].loose[0]) tips.end(curves[c], true);
+      if (chains[c].loose[1]) tips.end(curves[c], false);
+    }
   }
   Rewirer(level, h, chains, curves).rewire();
 }

@@ -93,16 +93,6 @@ std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
   return {};
 }
 
-std::optional<Vec3> SamplesOnFaces::meeting_of_planes(const Edge& samples, const Vec3& at) const {
-  for (const Vec3& n : normals_[samples[0]]) {
-    for (const Vec3& m : normals_[samples[1]]) {
-      const auto found = meeting_of_planes(samples, n, m, at);
-      if (found) return found;
-    }
-  }
-  return {};
-}
-
 std::optional<Vec3> SamplesOnFaces::meeting_of_planes(const Edge& samples, const Vec3& n,
                                                       const Vec3& m, const Vec3& at) const {
   const auto& [p, q] = samples;

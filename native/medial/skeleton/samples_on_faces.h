@@ -34,17 +34,12 @@ class SamplesOnFaces {
   // to `at` as possible; nothing if they do not meet in one. If one sample is on a crease, it is
   // the place of this sample.
   std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
-  // Returns the place nearest to `at` in which the tangent planes at two samples meet; nothing if
-  // they do not meet in a convex edge.
-  std::optional<Vec3> meeting_of_planes(const Edge& samples, const Vec3& at) const;
   EdgeMark mark(const Edge& samples) const;
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
   bool are_near(const Vec3& place) const;
   // Returns the triangle on which the sample nearest to a place lies, or -1.
   int32_t triangle_near(const Vec3& place) const { return triangle(tree_.nearest(place).id); }
-  // Returns the distance within which a sample is near.
-  double reach() const { return reach_; }
   size_t bytes() const;
 
  private:
@@ -53,7 +48,8 @@ class SamplesOnFaces {
   // the line in which two walls cross. Neither sample satisfies the Angle condition, since its
   // umbrella has triangles of the other wall, too.
   bool are_opposite_reflex_edges(const Edge& samples) const;
-  // The same for one pair of normals.
+  // Returns the place nearest to `at` in which planes with these normals at two samples meet;
+  // nothing if they do not meet in a convex edge.
   std::optional<Vec3> meeting_of_planes(const Edge& samples, const Vec3& n, const Vec3& m,
                                         const Vec3& at) const;
 
