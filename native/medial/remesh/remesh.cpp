@@ -220,6 +220,30 @@ class Remesher {
 
 }  // namespace
 
+void merge_close(EvenMesh& even, std::span<const double> within) {
+  SheetComplex& mesh = even.mesh;
+  std::vector<int32_t> at;
+  const auto merge = [&](int32_t from, int32_t to) {
+    if (even.held[from] || mesh.stratum(from) > mesh.stratum(to)) return false;
+    if (!mesh.has_triangles(from) || !mesh.can_collapse(from, to)) return false;
+    at.clear();
+    mesh.for_triangles(from, [&](int32_t t) { at.push_back(t); });
+    mesh.collapse(from, to);
+    for (const int32_t t : at) settle_normal(even, t);
+    return true;
+  };
+  for (bool merged = true; merged;) {
+    merged = false;
+    std::vector<std::tuple<double, int32_t, int32_t>> close;
+    for (const auto& [a, b] : mesh.edges()) {
+      const double away = distance(even.position[a], even.position[b]);
+      if (away < std::min(within[a], within[b])) close.emplace_back(away, a, b);
+    }
+    std::sort(close.begin(), close.end());
+    for (const auto& [away, a, b] : close) merged = merge(a, b) || merge(b, a) || merged;
+  }
+}
+
 void remesh(EvenMesh& even, const RemeshOptions& options, const Run& run) {
   Remesher remesher(even, options, run);
   remesher.split();

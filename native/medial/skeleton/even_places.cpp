@@ -197,10 +197,10 @@ SmoothRim EvenPlaces::way_out(int32_t v) const {
   return smooth.reach > 0 ? smooth : before_third_wall(v);
 }
 
-// Where a plate ends, a third wall stops the balls between its two sides. If the plate is thinner
-// than the holes between its samples, these show no sheets that go on into its edges.
+// Where a plate ends, a third wall or a fillet stops the balls between its two sides. A plate that
+// is thinner than the holes between its samples shows no sheets that go on into its edges.
 SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
-  if (!is_thin_plate(v)) return {};
+  if (!has_parallel_walls(v)) return {};
   const Vec3 outward = outward_at(v);
   const Vec3 far = e_.position[v] + hole_at(v) * outward;
   if (ball_between(v, far).radius > 0) return {};
@@ -208,9 +208,7 @@ SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
   return {outward, distance(last, e_.position[v]), true};
 }
 
-bool EvenPlaces::is_thin_plate(int32_t v) const {
-  return found_[v].radius < hole_at(v) && openness(found_[v].away) > kPlate;
-}
+bool EvenPlaces::has_parallel_walls(int32_t v) const { return openness(found_[v].away) > kPlate; }
 
 Touch EvenPlaces::ball_between(int32_t v, const Vec3& start) const {
   return empty_ball(samples_, {start, hole_at(v)}, found_[v].walls, start, 2);
@@ -242,7 +240,7 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
   const Vec3 last = last_place(inner, e_.position[v]);
   const Vec3 way = last - e_.position[v];
   if (last == e_.position[inner]) return {};
-  return {-normalized(way), length(way), is_thin_plate(inner)};
+  return {-normalized(way), length(way), has_parallel_walls(inner)};
 }
 
 // The squared sine of half the angle between the feet falls nearly linearly towards the end, where

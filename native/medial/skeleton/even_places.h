@@ -42,7 +42,7 @@ class EvenPlaces {
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   SmoothRim before_third_wall(int32_t v) const;
-  bool is_thin_plate(int32_t v) const;
+  bool has_parallel_walls(int32_t v) const;
   Touch ball_between(int32_t v, const Vec3& start) const;
   Vec3 last_place(int32_t v, const Vec3& far) const;
   double step_of(int32_t v, const SmoothRim& way) const;

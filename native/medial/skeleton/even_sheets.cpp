@@ -17,6 +17,7 @@ namespace {
 constexpr double kEdge = 2.8;  // the wanted length of an edge: 1.7 times the distance of samples
 constexpr double kLeastEdge = 1.3;       // in narrow sheets, where there is nothing to gain below
 constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
+constexpr double kMerged = 0.25;         // that Voronoi vertices of one place are apart
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
@@ -40,6 +41,9 @@ class EvenSheets {
     EvenMesh even = start();
     const SamplesOnFaces* samples = samples_;
     if (samples) hold_on_creases(even, *samples, generators_, hole_, radius_, run_);
+    std::vector<double> within(hole_);
+    for (double& w : within) w *= kMerged;
+    merge_close(even, within);
     choose_targets(even);
     RemeshOptions options{true, kChord * h_.complex.diagonal, [&](const Vec3& place) {
                             return samples->creases().nearer(place, HUGE_VAL)->point;
