@@ -39,6 +39,7 @@ from .core.files.write import export_axis
 from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
 from .core.options import Choice, Switch
+from .core.samples.own_frame import in_own_frame, own_origin
 from .core.samples.shape import Shape
 from .core.settings import (
     ANALYSED,
@@ -140,7 +141,8 @@ def compute(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    return axis.compute_axis(_shape(points, triangles, normals), wanted, _progress(progress))
+    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    return axis.compute_axis(shape, wanted, _progress(progress)).moved(origin)
 
 
 def compute_each_part(
@@ -169,8 +171,9 @@ def compute_each_part(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    shape = _shape(points, triangles, normals)
-    return each_part.compute_each_part(shape, wanted, _progress(progress))
+    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    each = each_part.compute_each_part(shape, wanted, _progress(progress))
+    return replace(each, computations=tuple(one.moved(origin) for one in each.computations))
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
@@ -247,8 +250,9 @@ def cover_by_balls(
         refine=_value(refine, "refine", BALL_OPTIONS["refine"]),
     )
     chosen = Settings(**_checked(settings, list(OPTIONS)))
-    shape = _shape(points, triangles, normals)
-    return ball_cover.cover_by_balls(shape, chosen, wanted, _progress(progress))
+    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    cover = ball_cover.cover_by_balls(shape, chosen, wanted, _progress(progress))
+    return replace(cover, balls=cover.balls.moved(origin))
 
 
 def reduce(
@@ -276,7 +280,9 @@ def reduce(
     """
     most = int(np.iinfo(np.int32).max)
     count = min(_plain(vertices, "vertices", int, "give a number above 0"), most)
-    return reduce_axis(_axis(found), count, _progress(progress))
+    given = _axis(found)
+    origin = own_origin(given.vertices)
+    return reduce_axis(given.moved(-origin), count, _progress(progress)).moved(origin)
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
@@ -291,7 +297,10 @@ def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Recon
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    return reconstruction.reconstruct(_numbers(points, "points"), _progress(progress))
+    given = _numbers(points, "points")
+    origin = own_origin(given)
+    found = reconstruction.reconstruct(given - origin, _progress(progress))
+    return replace(found, vertices=found.vertices + origin)
 
 
 def read(path: str | os.PathLike[str]) -> Shape:

@@ -1469,6 +1469,25 @@ def solid_betti(
     triangles : (m, 3) int32
     """
 
+def are_single(points: NDArray[np.float64]) -> bool:
+    """Whether coordinates were rounded to float32: all are such numbers, and some use the last bit that these have.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    """
+
+def rounding_of(points: NDArray[np.float64]) -> float:
+    """How far apart places may be that were meant to be one: four roundings to float32, in which meshes are stored.
+
+    Those of coordinates that were rounded grow with the distance from the origin. Others are known better, and it is
+    the size of their box that counts, wherever that lies.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    """
+
 def mesh_parts(
     points: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> tuple[NDArray[np.int32], NDArray[np.bool_], NDArray[np.bool_]]:
@@ -1486,7 +1505,7 @@ def mesh_parts(
     open : (k,) bool
         Whether a part has an edge through which its triangles do not run equally often in both directions.
     flat : (k,) bool
-        Whether a part lies in a plane, up to the rounding of its corners to float32.
+        Whether a part lies in a plane, up to `rounding_of` its corners.
 
     Raises
     ------

@@ -3,6 +3,7 @@
 #include "arrays.h"
 #include "base/polygon_areas.h"
 #include "base/polygon_edges.h"
+#include "base/rounding.h"
 #include "base/rows.h"
 #include "base/triangle_tree.h"
 #include "bindings.h"
@@ -265,6 +266,14 @@ void bind_surfaces(py::module_& m) {
         py::arg("length"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("wrap", &wrapped_faces, docs::wrap, py::arg("points"), py::arg("triangles"),
         py::arg("opening"), py::arg("distance"), py::kw_only(), py::arg("progress") = nullptr);
+  m.def(
+      "are_single",
+      [](const py::object& points) { return are_single(Points(points, "points").span()); },
+      docs::are_single, py::arg("points"));
+  m.def(
+      "rounding_of",
+      [](const py::object& points) { return rounding_of(Points(points, "points").span()); },
+      docs::rounding_of, py::arg("points"));
   m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));
   m.def("part_places", &places_of_parts, docs::part_places, py::arg("points"),
         py::arg("triangles"));

@@ -78,7 +78,7 @@ std::unique_ptr<Faces> faces_of(const py::object& vertices, const py::object& tr
   const FacesInput input{rows.span(), corners.span(), {}, sharp_angle, marked.span(), smooth};
   const Run run{thread_count(thread_argument(threads)), progress};
   const py::gil_scoped_release release;
-  return std::make_unique<Faces>(input, input.vertices, run, VertexNormals::fitted);
+  return std::make_unique<Faces>(input, Frame{}, run, VertexNormals::fitted);
 }
 
 py::tuple creases_of(const Faces& faces) {

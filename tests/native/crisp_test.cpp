@@ -139,7 +139,7 @@ TEST(ClosestPlace, OnASideHasAZeroCoordinate) {
 
 TEST(Faces, ABallRollsOffOnFaceButNotOverAConvexEdge) {
   const test::Mesh mesh = box();
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   // From the bottom the foot of a place near a side wall stays on the bottom.
   const Foot bottom = faces.descend(0, {2.9, 1, 0.4});
   EXPECT_DOUBLE_EQ(bottom.distance, 0.4);
@@ -151,7 +151,7 @@ TEST(Faces, ABallRollsOffOnFaceButNotOverAConvexEdge) {
 
 TEST(TouchingBall, TouchesTwoThreeAndFourWalls) {
   const test::Mesh mesh = box();
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   std::array<int32_t, 4> walls{0, 2, 4, 8};  // bottom, top, front, left
   const auto ball = [&](size_t count, const Vec3& start) {
     return touching_ball(faces, {walls.data(), count}, start);
@@ -168,7 +168,7 @@ TEST(TouchingBall, TouchesTwoThreeAndFourWalls) {
 
 TEST(ConvexCreases, OfABoxDivideItAndHaveEightCorners) {
   const test::Mesh mesh = box();
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   const ConvexCreases creases(faces, 0.05);
   for (int32_t v = 0; v < 8; ++v) EXPECT_TRUE(creases.is_corner(v)) << v;
   const auto place = creases.nearer({1.5, 0.1, 0.2}, HUGE_VAL);
@@ -181,7 +181,7 @@ TEST(ConvexCreases, OfABoxDivideItAndHaveEightCorners) {
 
 TEST(ConvexCreases, OfPatchesBelowTheSpacingDivideNothing) {
   const test::Mesh mesh = box();
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   const ConvexCreases creases(faces, 1);
   const auto place = creases.nearer({1.5, 0.1, 0.2}, HUGE_VAL);
   ASSERT_TRUE(place);
@@ -203,7 +203,7 @@ TEST(ConvexCreases, OfAZigzagAreJaggedAndHaveNoCornersInside) {
       mesh.triangles.push_back({a, c, d});
     }
   }
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   const ConvexCreases creases(faces, 1);
   const auto found = creases.nearer({20, 0, 0}, 2);
   ASSERT_TRUE(found);
@@ -226,7 +226,7 @@ TEST(ConvexCreases, OfAFewEdgesAreAFragmentWhereSamplesAreNotMuchCloser) {
       mesh.triangles.push_back({a, b + 1, a + 1});
     }
   }
-  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, Frame{}, {});
   for (const double spacing : {1.0, 0.05}) {
     const ConvexCreases creases(faces, spacing);
     const auto found = creases.nearer({6, 6, 1}, HUGE_VAL);

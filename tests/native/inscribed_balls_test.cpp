@@ -91,7 +91,7 @@ double diameter_by_loop(const test::Mesh& mesh, const Vec3& point, int32_t row) 
 InscribedBalls measured(const test::Mesh& mesh, const Places& places, bool smooth, int threads) {
   const FacesInput input{mesh.vertices, mesh.triangles, {}, std::numbers::pi / 6, {}, smooth};
   const Run run{threads};
-  return inscribed_balls(Faces(input, mesh.vertices, run, VertexNormals::fitted),
+  return inscribed_balls(Faces(input, Frame{}, run, VertexNormals::fitted),
                          {places.points, places.face, places.spacing}, run);
 }
 

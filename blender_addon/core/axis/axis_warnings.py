@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.shape import Shape
@@ -61,7 +59,7 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
         )
     spacing = chosen.samples.spacing
     thickness = 2.0 * shape.volume / shape.area if shape.area > 0.0 else 0.0
-    if closed and thickness <= np.finfo(np.float32).eps * np.abs(shape.points).max():
+    if closed and thickness <= shape.rounding:
         return (
             "the faces enclose no volume, as where each of them stands twice; give them thickness "
             "(a Solidify modifier)"

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -56,6 +56,8 @@ class Computation(OfChosenSamples):
         The number of faces that looked inward and were read the other way round.
     mesh : MeshCounts or None
         The numbers of faces and connected parts; None where there are no faces.
+    origin : (3,) float64
+        Where the frame lies in which the samples were analysed.
     """
 
     axis: MedialAxis
@@ -66,6 +68,11 @@ class Computation(OfChosenSamples):
     seconds: float
     turned: int = 0
     mesh: MeshCounts | None = None
+    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+
+    def moved(self, by: NDArray[np.float64]) -> Computation:
+        """The computation with an axis that is moved out of the frame of the samples."""
+        return replace(self, axis=self.axis.moved(by), origin=self.origin + by)
 
     @property
     def sides(self) -> Sides:
@@ -160,7 +167,7 @@ def compute_axis(
 
 def extract_axis(computation: Computation, settings: Settings) -> MedialAxis:
     """Extract the axis of a computation for other thresholds; the other settings must stay the same."""
-    return extract(computation.chosen.samples, settings)
+    return extract(computation.chosen.samples, settings).moved(computation.origin)
 
 
 def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -136,6 +136,13 @@ class MedialAxis:
     level: LevelValues | None = None
     structure: Structure | None = None
     rho_range: SliderRange | None = None
+
+    def moved(self, by: NDArray[np.float64]) -> MedialAxis:
+        """The axis, moved; the same bytes where it stays."""
+        if not by.any():
+            return self
+        level = self.level and replace(self.level, exact=self.level.exact + by)
+        return replace(self, vertices=self.vertices + by, level=level)
 
     @property
     def facets(self) -> int:

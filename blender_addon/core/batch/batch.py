@@ -29,6 +29,7 @@ from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from ..samples.own_frame import in_own_frame
 from ..samples.shape import Shape
 
 
@@ -127,7 +128,8 @@ def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT
     MedialAxisError
     """
     check_name(item.output)
-    shape, warnings = item.read()
+    given, warnings = item.read()
+    shape, _ = in_own_frame(given)
     begun = Begun(item, work, limit, shape, warnings, None)
     kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
     return (

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..samples.mesh_parts import PartShape, split
+from ..samples.own_frame import in_own_frame
 from ..samples.shape import Shape
 from ..settings import Settings
 from .batch import Item
@@ -20,7 +21,8 @@ def items_of_parts(item: Item, settings: Settings) -> list[Item]:
     ------
     MedialAxisError
     """
-    shape, warnings = item.read()
+    given, warnings = item.read()
+    shape, _ = in_own_frame(given)
     found = split(shape, settings)
 
     def item_of(part: PartShape, said: tuple[str, ...]) -> Item:

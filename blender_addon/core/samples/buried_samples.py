@@ -27,7 +27,6 @@ _OFF = 1e-3
 _CLEFT = 0.25
 # Samples in pairs across gaps resolve clefts, too, unless more than this share of them is buried where parts overlap.
 _FEW = 0.002
-_ROUNDINGS = 4  # a wall thinner than this number of roundings to float32, in which meshes are stored, is a sheet
 _ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate
 _BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings
 
@@ -139,16 +138,15 @@ def _are_buried(
     """(n,) mark the points at which the surface bounds nothing, with those in gaps narrower than `off`, and without.
 
     Both sides are tested at the distance `off`, and closer where that is beyond a thin wall or gap. Walls and gaps no
-    thicker than the rounding of their corners to float32 are none.
+    thicker than the rounding of their corners are none.
     """
     faces = (shape.points, shape.triangles)
-    rounding = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(shape.points).max())
     with native.own_errors() as module:
         narrow = module.buried(points, normals, off, *faces).copy()
         rows = np.flatnonzero(narrow)
         far, close, below = (
             module.winding_number(points[rows] + away * normals[rows], *faces) > 0.5
-            for away in (off, rounding, -rounding)
+            for away in (off, shape.rounding, -shape.rounding)
         )
     found = narrow.copy()
     narrow[rows], found[rows] = far == below, close == below

@@ -14,8 +14,6 @@ from ..small_matrices import dot, stretches
 if TYPE_CHECKING:
     from .shape import Shape
 
-_ROUNDINGS = 4  # a surface thinner than this number of roundings to float32, in which meshes are stored, is flat
-
 
 def check_faces(shape: Shape, wanted: SamplingMode) -> None:
     """Raise InvalidInputError when there are no faces where samples of them are needed."""
@@ -34,13 +32,13 @@ def check_faces(shape: Shape, wanted: SamplingMode) -> None:
 
 
 def check_not_flat(shape: Shape) -> None:
-    """Raise DegenerateInputError when all faces lie in a plane, up to the rounding of their corners to float32."""
+    """Raise DegenerateInputError when all faces lie in a plane, up to the rounding of their corners."""
     corners = shape.points[np.unique(shape.triangles)]
     around = corners - corners.mean(axis=0)
     columns = np.ascontiguousarray(around.T)
     _, axes, _ = stretches(np.array([[dot(p, q) for q in columns] for p in columns]))
     thickness = float(np.ptp(dot(around, axes[2])))
-    if thickness <= _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(corners).max()):
+    if thickness <= shape.rounding:
         raise DegenerateInputError(
             "Expected faces that span a volume, found all of them in one plane; give them "
             "thickness (a Solidify modifier, or an extrusion)"

@@ -14,6 +14,7 @@ from ..small_matrices import placed
 from .density import percent
 from .nearness import same_place
 from .outward_faces import are_left_out, reading_warnings
+from .own_frame import rounding_warning
 from .scan import is_noisy, scan_warnings
 from .worst_doubt import words_of_place
 
@@ -31,6 +32,8 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
         yield chosen.thinned
     yield from scan_warnings(chosen.scan, chosen.sides.source)
     yield from reading_warnings(shape)
+    if rounded := rounding_warning(shape, samples.spacing, "samples are apart by"):
+        yield Severe(rounded)
     if loose := _loose_vertices(shape, chosen):
         yield (
             f"{loose:,} vertices without a face were left out; choose Sampling Vertices to use them"

@@ -18,8 +18,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
-# looked at, in roundings to float32.
-_FOLDED, _ROUNDINGS = -0.99, 16
+# looked at, in roundings.
+_FOLDED, _OFF = -0.99, 4
+
+# As in `_medial.rounding_of`.
+_ROUNDINGS, _DOUBLE = 4, float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +51,8 @@ class Shape:
         How `outward_faces.outward_shape` read each triangle; None before.
     offset : float
         How far outside of the surface that is meant the faces lie: those of a wrap do.
+    far : float
+        The largest coordinate before the shape was moved to its own frame; 0.0 where it was not.
     """
 
     points: NDArray[np.float64]
@@ -60,10 +65,17 @@ class Shape:
     rows: NDArray[np.int32] | None = None
     reading: NDArray[np.uint8] | None = None
     offset: float = 0.0
+    far: float = 0.0
 
     def has_vertices(self, count: int) -> bool:
         """Whether the points may be `count` vertices of an object, as those of a wrap never are."""
         return len(self.points) == count and self.offset == 0.0
+
+    @cached_property
+    def rounding(self) -> float:
+        """How far apart places may be that were meant to be one, as exactly as the coordinates were given."""
+        with native.own_errors() as module:
+            return max(module.rounding_of(self.points), _ROUNDINGS * _DOUBLE * self.far)
 
     @cached_property
     def volume(self) -> float:
@@ -146,7 +158,7 @@ class Shape:
         meet = (cosines < _FOLDED) & (self.neighbours >= 0)
         if not (meet.any() and self.volume > 0.0):
             return every
-        off = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(self.points).max())
+        off = _OFF * self.rounding
         middles, faces = corners.mean(axis=1), (self.points, self.triangles)
         with native.own_errors() as module:
             above, below = (

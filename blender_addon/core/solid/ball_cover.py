@@ -74,6 +74,10 @@ class Balls:
     farthest: float
     edges: NDArray[np.int32] = field(default_factory=no_edges)
 
+    def moved(self, by: NDArray[np.float64]) -> Balls:
+        """The balls, moved."""
+        return replace(self, centres=self.centres + by) if by.any() else self
+
     @property
     def single(self) -> NDArray[np.int32]:
         """The rows of balls that are no end of a capsule, ascending."""

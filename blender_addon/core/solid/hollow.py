@@ -15,6 +15,7 @@ from ..machine.progress import Progress
 from ..samples.buried_samples import bounding_share
 from ..samples.mesh_parts import check_no_sheet
 from ..samples.outward_faces import are_left_out, outward_shape, reading_warnings
+from ..samples.own_frame import rounding_warning
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
 from ..small_matrices import dot
@@ -196,6 +197,7 @@ def _shell(
     volumes = _volumes(surface)
     # A space has one surface round it, and one more round each wall that stands in it.
     cavities, loose = int((volumes > 0.0).sum()), int((volumes < 0.0).sum())
+    rounded = filter(None, [rounding_warning(shape, step, "voxels measure")])
     return Hollow(
         np.concatenate((shape.points, surface.vertices)),
         np.concatenate((faces, inner)),
@@ -209,7 +211,7 @@ def _shell(
         cavities,
         loose,
         shape,
-        (*reading_warnings(shape), *_warnings(shape, cavities, loose, step)),
+        (*reading_warnings(shape), *rounded, *_warnings(shape, cavities, loose, step)),
         time.perf_counter() - start,
     )
 

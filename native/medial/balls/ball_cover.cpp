@@ -66,7 +66,7 @@ std::vector<Ball> inner_balls(const BallCoverInput& input, const CoveredSolid& s
   std::vector<Ball> balls;
   balls.reserve(depth.size());
   for (size_t i = 0; i < depth.size(); ++i) {
-    const double radius = std::scalbn(input.radii[i], -solid.frame.exponent);
+    const double radius = solid.frame.inward(input.radii[i]);
     balls.push_back(
         {solid.frame.inward(input.centres[i]), std::clamp(radius, 0.0, std::max(depth[i], 0.0))});
   }
@@ -142,9 +142,8 @@ BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& option
   cover.step = solid.frame.outward(left.step());
 
   begin_stage(run.progress, "Reach of balls", 0.8, 1);
-  const double reach = options.mode == CoverMode::around
-                           ? HUGE_VAL
-                           : std::scalbn(options.tolerance, -solid.frame.exponent);
+  const double reach =
+      options.mode == CoverMode::around ? HUGE_VAL : solid.frame.inward(options.tolerance);
   set_reach(cover, balls, depth, reach, solid, left, run);
   advance(run.progress, 1);
   return cover;

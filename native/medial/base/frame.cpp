@@ -6,14 +6,13 @@
 namespace medial {
 namespace {
 
-constexpr int kPlainBits = 64;   // extents from 2^-64 to 2^64 are not scaled
-constexpr int kOffsetBits = 20;  // offsets of up to 2^20 extents are kept
+constexpr int kPlainBits = 64;  // extents from 2^-64 to 2^64 are not scaled
 
 // Returns the origin along one axis. If low and high are within a factor of two, differences to
-// either are exact (Sterbenz).
-double origin_of(double low, double high, double extent) {
-  const double offset = std::min(std::abs(low), std::abs(high));
-  return (low > 0) == (high > 0) && offset > std::ldexp(extent, kOffsetBits) ? low : 0;
+// all that lies between them are exact (Sterbenz).
+double origin_of(double low, double high) {
+  const bool exact = high <= 2 * low || low >= 2 * high;
+  return exact ? 0.5 * low + 0.5 * high : 0;
 }
 
 double rounded(double x, double finest) {
@@ -35,6 +34,8 @@ Vec3 Frame::outward(const Vec3& p) const {
          origin;
 }
 
+double Frame::inward(double length) const { return std::scalbn(length, -exponent); }
+
 double Frame::outward(double length) const { return std::scalbn(length, exponent); }
 
 std::vector<Vec3> Frame::inward(std::span<const Vec3> rows) const {
@@ -52,9 +53,8 @@ Frame frame_of(std::span<const Vec3> rows, std::span<const Vec3> more_rows) {
   const double extent = max_abs(box.extent());
   Frame frame;
   if (!(extent > 0) || !std::isfinite(extent)) return frame;
-  frame.origin = {origin_of(box.low.x, box.high.x, extent),
-                  origin_of(box.low.y, box.high.y, extent),
-                  origin_of(box.low.z, box.high.z, extent)};
+  frame.origin = {origin_of(box.low.x, box.high.x), origin_of(box.low.y, box.high.y),
+                  origin_of(box.low.z, box.high.z)};
   const int size = std::ilogb(extent);
   if (std::abs(size) > kPlainBits) frame.exponent = size;
   const double finest = std::ldexp(1.0, size - frame.exponent - kFinestBits);

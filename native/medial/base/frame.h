@@ -23,14 +23,15 @@ struct Frame {
 
   Vec3 inward(const Vec3& p) const;
   Vec3 outward(const Vec3& p) const;
+  double inward(double length) const;
   double outward(double length) const;
   std::vector<Vec3> inward(std::span<const Vec3> rows) const;
 };
 
-// Returns the plain frame, which keeps every bit, unless coordinates are extreme. Otherwise the
-// unit is a power of two if the extent is beyond 2^-64 or 2^64, the origin moves where the offset
-// exceeds 2^20 times the extent (all differences are then exact), and coordinates are rounded to
-// the finest step if some are finer. The rows must be finite.
+// Returns the frame whose origin is the middle of the box along each axis where that is exact:
+// where all coordinates are within a factor of two. Otherwise the box is no farther from 0 than its
+// size, and the origin stays. The unit is a power of two if the extent is beyond 2^-64 or 2^64, and
+// coordinates are rounded to the finest step if some are finer. The rows must be finite.
 Frame frame_of(std::span<const Vec3> rows, std::span<const Vec3> more_rows);
 
 }  // namespace medial

@@ -127,7 +127,7 @@ CapsuleCover capsule_cover(const CapsuleCoverInput& input, const CapsuleCoverOpt
   auto capsules = inner_capsules(input, options, solid, depth, run);
   begin_stage(run.progress, "Reach of capsules", 0.6, 1);
   const bool around = options.mode == CoverMode::around;
-  const double most = around ? HUGE_VAL : std::scalbn(options.tolerance, -solid.frame.exponent);
+  const double most = around ? HUGE_VAL : solid.frame.inward(options.tolerance);
   if (most > 0) grow_all(capsules, options, most, solid, lattice, run);
 
   CapsuleCover cover;

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "base/rounding.h"
 #include "base/union_find.h"
 #include "contact/closest_place.h"
 #include "contact/least_distance.h"
@@ -16,15 +17,24 @@ constexpr size_t kFew = 8;  // triangles whose box holds their control points
 // A patch that bulges by less than this share of its size is flat: only rounding bent it.
 constexpr double kFlat = 1e-12;
 
+// How exactly the vertices are known does not depend on the frame.
+TriangleMesh mesh_in(const Frame& frame, const FacesInput& input, const Run& run) {
+  if (frame.is_plain()) return make_mesh(input.vertices, input.triangles, run);
+  TriangleMesh mesh = make_mesh(frame.inward(input.vertices), input.triangles, run);
+  std::vector<Vec3> given;
+  for (const int32_t row : mesh.row) given.push_back(input.vertices[row]);
+  mesh.rounding = frame.inward(rounding_of(given));
+  return mesh;
+}
+
 float rounded_up(double value) { return std::nextafter(static_cast<float>(value), HUGE_VALF); }
 
 }  // namespace
 
-Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run,
-             VertexNormals normals)
-    : mesh_(make_mesh(vertices, input.triangles, run)),
+Faces::Faces(const FacesInput& input, const Frame& frame, const Run& run, VertexNormals normals)
+    : mesh_(mesh_in(frame, input, run)),
       creases_(find_creases(mesh_, input.sharp_angle,
-                            marked_edges(vertices, input.sharp_edges, mesh_, input.triangles),
+                            marked_edges(input.vertices, input.sharp_edges, mesh_, input.triangles),
                             false, run)),
       triangle_of_(input.triangles.size(), -1) {
   surface_.emplace(mesh_, creases_, input.smooth, run, normals);

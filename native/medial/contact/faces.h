@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/box_tree.h"
+#include "base/frame.h"
 #include "base/oriented_box.h"
 #include "sampling/pn_triangles.h"
 
@@ -37,8 +38,8 @@ struct FaceSearch {
 // Its const members may be called from several threads.
 class Faces {
  public:
-  // Throws as make_mesh does. `vertices` may be given in another frame than those of the input.
-  Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run,
+  // The faces are brought into the frame. Throws as make_mesh does.
+  Faces(const FacesInput& input, const Frame& frame, const Run& run,
         VertexNormals normals = VertexNormals::mean);
   Faces(const Faces&) = delete;
   Faces& operator=(const Faces&) = delete;

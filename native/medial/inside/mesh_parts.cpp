@@ -2,19 +2,15 @@
 #include "inside/mesh_parts.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/csr.h"
+#include "base/rounding.h"
 #include "base/rows.h"
 #include "base/union_find.h"
 #include "inside/surface.h"
 
 namespace medial {
 namespace {
-
-// A part that is no thicker than this number of roundings to float32, in which meshes are stored,
-// lies in a plane.
-constexpr double kRoundings = 4;
 
 // Two faces that share an edge; or one at whose edge its part is open, and -1.
 struct EdgeFaces {
@@ -89,6 +85,17 @@ std::vector<Farthest> farthest_corners(const MeshParts& parts, std::span<const T
   return found;
 }
 
+// Returns the rounding of the corners of each part.
+std::vector<double> roundings(const MeshParts& parts, std::span<const Triangle> faces,
+                              std::span<const Vec3> points) {
+  std::vector<std::vector<Vec3>> corners(static_cast<size_t>(parts.count));
+  for_corners(parts, faces, [&](size_t p, int32_t v) { corners[p].push_back(points[v]); });
+  std::vector<double> found;
+  found.reserve(corners.size());
+  for (const auto& some : corners) found.push_back(rounding_of(some));
+  return found;
+}
+
 // Marks the parts whose corners lie in the plane of three of them that are far from each other.
 void mark_flat(MeshParts& parts, std::span<const Triangle> faces, std::span<const Vec3> points) {
   std::vector<int32_t> first(static_cast<size_t>(parts.count), -1);
@@ -96,8 +103,6 @@ void mark_flat(MeshParts& parts, std::span<const Triangle> faces, std::span<cons
     if (first[p] < 0) first[p] = v;
   });
   const auto way = [&](size_t p, int32_t v) { return points[v] - points[first[p]]; };
-  const auto size =
-      farthest_corners(parts, faces, [&](size_t, int32_t v) { return max_abs(points[v]); });
   const auto second =
       farthest_corners(parts, faces, [&](size_t p, int32_t v) { return length(way(p, v)); });
   const auto normal = [&](size_t p, int32_t v) {
@@ -109,9 +114,9 @@ void mark_flat(MeshParts& parts, std::span<const Triangle> faces, std::span<cons
     if (third[p].corner < 0) return 0.0;
     return std::abs(dot(way(p, v), normal(p, third[p].corner))) / third[p].distance;
   });
-  constexpr double kThinnest = kRoundings * std::numeric_limits<float>::epsilon();
+  const auto rounding = roundings(parts, faces, points);
   for (size_t p = 0; p < height.size(); ++p) {
-    parts.flat[p] = height[p].distance <= kThinnest * size[p].distance ? 1 : 0;
+    parts.flat[p] = height[p].distance <= rounding[p] ? 1 : 0;
   }
 }
 

@@ -18,7 +18,7 @@ struct MeshParts {
   int32_t count = 0;
   // Whether a part has an edge whose faces do not use it equally often in both directions.
   std::vector<uint8_t> open;
-  // Whether a part lies in a plane, up to the rounding of its corners to float32.
+  // Whether a part lies in a plane, up to the rounding of its corners.
   std::vector<uint8_t> flat;
 };
 

@@ -2,12 +2,12 @@
 #include "inside/part_places.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/rounding.h"
 #include "base/rows.h"
 #include "base/sort_unique.h"
 #include "inside/meeting.h"
@@ -17,8 +17,6 @@
 namespace medial {
 namespace {
 
-// Corners within so many roundings to float32, in which meshes are stored, are at one place.
-constexpr double kTogether = 4 * std::numeric_limits<float>::epsilon();
 constexpr double kAside = 4;              // places are so many times as far behind their face
 constexpr size_t kFaces = 64;             // of a part that are tested
 constexpr double kFromCorner = 1.0 / 64;  // of the way to the middle
@@ -93,9 +91,7 @@ class PlacesOfParts {
                 const MeshParts& parts, const Run& run)
       : rows_(rows), triangles_(triangles), parts_(parts), run_(run), windings_(parts.count) {
     places_.assign(static_cast<size_t>(parts.count), PartPlace::apart);
-    double largest = 0;
-    for (const Vec3& p : rows) largest = std::max(largest, max_abs(p));
-    together_ = kTogether * largest;
+    together_ = rounding_of(rows);
     faces_.resize(static_cast<size_t>(parts.count));
     for (size_t face = 0; face < triangles.size(); ++face) {
       if (parts.part[face] >= 0) faces_[parts.part[face]].push_back(static_cast<int32_t>(face));
@@ -342,7 +338,7 @@ class PlacesOfParts {
   std::vector<PartPlace> places_;
   std::vector<std::vector<int32_t>> faces_;  // of each part
   std::vector<uint8_t> inward_;              // whether those of a part look inward
-  double together_ = 0;
+  double together_ = 0;  // corners that are no farther from each other are at one place
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "base/random.h"
-#include "base/rows.h"
+#include "base/rounding.h"
 #include "inside/ray_crossings.h"
 #include "inside/winding_number.h"
 
@@ -23,9 +23,6 @@ constexpr double kLeastCosine = 0.1;                 // of a ray with the normal
 constexpr double kChance = 0.01;
 // Shares of the rays of the side that sees more, and of the other side, that leave no doubt.
 constexpr double kMost = 0.5, kNearlyNone = 0.1;
-// Meshes are stored in float32, so what is met closer than this share of the coordinates lies in
-// the face itself.
-constexpr double kRounding = 0x1p-21;
 
 // A place on a face, and a unit normal towards the front of its patch.
 struct Place {
@@ -40,8 +37,7 @@ class Voting {
         vertices_(vertices),
         run_(run),
         crossings_(soup(vertices, patches.faces), run.progress) {
-    const Box box = box_of(vertices);
-    start_ = kRounding * std::max(max_abs(box.low), max_abs(box.high));
+    start_ = rounding_of(vertices);
     gather();
   }
 
@@ -148,7 +144,8 @@ class Voting {
   std::span<const Vec3> vertices_;
   Run run_;
   RayCrossings crossings_;
-  double start_ = 0, all_area_ = 0;
+  double start_ = 0;  // what is met closer lies in the face itself
+  double all_area_ = 0;
   std::vector<std::vector<int32_t>> faces_;  // of each patch
   std::vector<double> area_;                 // of each patch, twice
 };

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/portable_math.h"
+#include "base/rounding.h"
 #include "base/rows.h"
 #include "base/sort.h"
 #include "inside/surface.h"
@@ -299,6 +300,7 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
   mesh.fans = rows_containing(std::span<const Triangle>(mesh.triangles),
                               static_cast<int32_t>(mesh.points.size()), run);
   add_normals(mesh, run);
+  mesh.rounding = rounding_of(mesh.points);
   return mesh;
 }
 

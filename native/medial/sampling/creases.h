@@ -18,7 +18,8 @@ struct TriangleMesh {
   // (m) unit normals; a sliver has that of the triangle across its longest edge, or zero if there
   // is none
   std::vector<Vec3> normal;
-  Csr<int32_t> fans;  // triangles at each point
+  Csr<int32_t> fans;    // triangles at each point
+  double rounding = 0;  // so far triangles of one plane are from it
 
   double corner_angle(int32_t triangle, int corner) const;
   // Returns the sum of the normals of the triangles at a point, weighted by their angles there.

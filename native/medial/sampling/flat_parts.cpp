@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/flat_parts.h"
 
-#include <limits>
-
 #include "base/union_find.h"
 
 namespace medial {
 namespace {
-
-// Coordinates may have been float32, so triangles of one plane are so far from it.
-constexpr double kPlane = 4.0 * std::numeric_limits<float>::epsilon();
 
 struct Plane {
   Vec3 normal, origin;
@@ -127,11 +122,8 @@ std::vector<double> borders(const TriangleMesh& mesh, const Creases& creases,
 
 FlatParts flat_parts(const TriangleMesh& mesh, const Creases& creases) {
   const size_t count = mesh.triangles.size();
-  double largest = 0;
-  for (const Vec3& p : mesh.points) largest = std::max(largest, max_abs(p));
-  const double rounding = kPlane * largest;
-  FlatParts flat{joined_by_edges(mesh, creases, rounding), {}, {}, {}};
-  keep_planar(mesh, rounding, flat.part);
+  FlatParts flat{joined_by_edges(mesh, creases, mesh.rounding), {}, {}, {}};
+  keep_planar(mesh, mesh.rounding, flat.part);
   std::vector<double> area(count, 0);
   std::vector<int32_t> members(count, 0);
   for (size_t t = 0; t < count; ++t) {

@@ -510,7 +510,8 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
 // way between the middles of the triangles.
 double bend_of(const Model& model, int32_t triangle) {
   constexpr double kMiddle = 0.4;  // of the heights over the common side
-  const auto& [points, rows, triangles, source, normal, fans] = model.mesh;
+  const auto &points = model.mesh.points, &normal = model.mesh.normal;
+  const auto& triangles = model.mesh.triangles;
   const Triangle& t = triangles[triangle];
   double most = 0;
   for (int i = 0; i < 3; ++i) {

@@ -201,8 +201,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   if (faces) {
     begin_stage(run.progress, "Faces", 0, std::max(bar.complex, 0.1));
     // The faces outlive the arena.
-    made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
-                                         Run{run.threads, run.progress, nullptr});
+    made.faces = std::make_unique<Faces>(*faces, frame, Run{run.threads, run.progress, nullptr});
     if (!partners.empty()) bounded = bounded_spacing(samples, spacing, run);
     made.on_faces = std::make_unique<SamplesOnFaces>(*faces, *made.faces, samples,
                                                      partners.empty() ? spacing : bounded, run);

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solids far from the origin: every product is that of the same solid there, as far as their coordinates are known."""
+
+import numpy as np
+import pytest
+from medial_axis import library
+from medial_axis.core.batch.balls_work import BallsWork
+from medial_axis.core.batch.batch import Item, begin, finish
+from medial_axis.core.batch.hollow_work import HollowWork
+from medial_axis.core.batch.mid_surface_work import MidSurfaceWork
+from medial_axis.core.batch.skeleton_work import SkeletonWork
+from medial_axis.core.batch.thicken_work import ThickenWork
+from medial_axis.core.batch.thickness_work import ThicknessWork
+from medial_axis.core.errors import MedialAxisError
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.machine.job import run_task
+from medial_axis.core.samples.own_frame import in_own_frame, own_origin
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import (
+    BallSettings,
+    CoverShapes,
+    Form,
+    HollowSettings,
+    Mesh,
+    MidSurfaceSettings,
+    Settings,
+    SidesFrom,
+    SkeletonSettings,
+    ThickenSettings,
+    ThicknessSettings,
+)
+from support.distance import to_triangles
+from support.meshes import box, icosphere
+from support.thick_meshes import block, joined, lathe
+from support.thin_solids import union
+
+DIRECTION = np.array([1.0, -2.0, 3.0])
+
+
+def rotation(seed):
+    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return q * np.sign(np.linalg.det(q))
+
+
+def solids():
+    """Thin and thick solids of size 1, and their least walls."""
+    inner = block(0.6, 0.4, 0.3)
+    return {
+        "box": (block(1.0, 0.7, 0.5), 0.5),
+        "plate": (block(1.0, 0.8, 0.04), 0.04),
+        "tube": (lathe([(0.4, 0.0), (0.4, 0.8), (0.34, 0.8), (0.34, 0.0)], 24), 0.06),
+        "turned": (lathe([(0.0, 0.0), (0.4, 0.0), (0.5, 0.3), (0.2, 0.6), (0.0, 0.6)], 32), 0.0),
+        "profile": (union(((0, 0, 0), (1, 0.5, 0.1)), ((0, 0, 0), (0.1, 0.5, 0.6))), 0.1),
+        "hollow box": (joined(block(0.8, 0.6, 0.5), (inner[0], inner[1][:, ::-1])), 0.1),
+    }
+
+
+SOLIDS = solids()
+
+
+def placed(name, seed, sizes, single=False):
+    """The solid in a random pose, so many sizes from the origin, and where it was moved to."""
+    points, triangles = SOLIDS[name][0]
+    offset = sizes * DIRECTION
+    moved = np.asarray(points, float) @ rotation(seed).T + offset
+    if single:
+        moved = moved.astype(np.float32).astype(float)
+    return Shape(moved, np.ascontiguousarray(triangles, np.int32)), offset
+
+
+def run(work, shape, output):
+    """The result and the report of an output, as a command makes them."""
+    begun = begin(Item("shape", None, None, output, lambda: (shape, ())), work, force=True)
+    outcome = run_task(begun.task)
+    return outcome.value, finish(begun, outcome)
+
+
+def near_and_far(work, name, seed, sizes, output):
+    """Reports and vertices of the files, at the origin and far from it, moved back."""
+    found = []
+    for far in (0.0, sizes):
+        shape, offset = placed(name, seed, far)
+        _, report = run(work, shape, output)
+        found.append((report, read_shape(output)[0].points - offset))
+    return found
+
+
+def assert_alike(one, other, names, within=1e-6):
+    for name in names:
+        assert other[name] == pytest.approx(one[name], rel=within, abs=within), name
+
+
+def assert_same_places(one, other, within):
+    """Each place has one of the other places beside it."""
+    for some, others in ((one, other), (other, one)):
+        away = np.linalg.norm(some[:, None] - others[None], axis=2).min(axis=1)
+        assert away.max() <= within
+
+
+far = pytest.mark.parametrize("sizes", [1e3, 1e5])
+farthest = pytest.mark.parametrize("sizes", [1e5])
+every = pytest.mark.parametrize("name", SOLIDS)
+
+
+@far
+@every
+@pytest.mark.parametrize("mesh", [Mesh.EVEN, Mesh.VORONOI])
+def test_axes_have_the_radii_of_the_faces(name, sizes, mesh):
+    """A ball ends at the faces, but for few that end at samples."""
+    shape, near = placed(name, 1, sizes)[0], placed(name, 1, 0.0)[0]
+    found, there = (
+        library.compute(some.points, some.triangles, samples=1500, mesh=mesh, smooth=False)
+        for some in (shape, near)
+    )
+    axis = found.axis
+    assert axis.level.betti == there.axis.level.betti and found.topology == there.topology
+    assert found.warnings == there.warnings
+    rows = np.flatnonzero(axis.level.is_crisp)[::7]
+    away = np.abs(to_triangles(axis.vertices[rows], shape.points[shape.triangles]))
+    assert np.abs(axis.radius[rows] - away).max() <= 1e-14 * sizes + 1e-9
+    assert axis.level.refused <= 0.1 * len(axis.vertices)
+
+
+@far
+@every
+def test_thickness(name, sizes, tmp_path):
+    work = ThicknessWork(Settings(smooth=False), ThicknessSettings(limit=0.08))
+    reports = []
+    for distance in (0.0, sizes):
+        shape, _ = placed(name, 3, distance)
+        reports.append(run(work, shape, tmp_path / "t.json")[1])
+    assert_alike(*reports, ["minimum", "area_below", "share_below"], 1e-14 * sizes + 1e-6)
+    assert [len(report["patches"]) for report in reports] == [len(reports[0]["patches"])] * 2
+    assert reports[0]["warnings"] == reports[1]["warnings"]
+    for patch in reports[1]["patches"]:
+        assert np.abs(patch["place"] - sizes * DIRECTION).max() <= 1.0
+
+
+@farthest
+@pytest.mark.parametrize("name", ["plate", "tube"])
+def test_thicken(name, sizes, tmp_path):
+    work = ThickenWork(Settings(smooth=False), ThickenSettings(limit=0.1, subdivide=True))
+    (one, near), (other, there) = near_and_far(work, name, 4, sizes, tmp_path / "thick.off")
+    assert_alike(one, other, ["minimum", "minimum_before", "share_below"], 1e-5)
+    assert_same_places(near, there, 1e-5)
+
+
+@farthest
+@pytest.mark.parametrize("name", ["plate", "profile"])
+def test_middle_surfaces(name, sizes, tmp_path):
+    work = MidSurfaceWork(Settings(samples=3000), MidSurfaceSettings())
+    (one, _), (other, _) = near_and_far(work, name, 5, sizes, tmp_path / "mid.obj")
+    names = ["sheets", "least_thickness", "largest_thickness", "share_of_volume"]
+    assert_alike(one, other, names, 0.01)
+
+
+@farthest
+@pytest.mark.parametrize("name", ["box", "profile"])
+def test_hollow(name, sizes, tmp_path):
+    work = HollowWork(HollowSettings(wall=0.2 * SOLIDS[name][1], voxel_size=0.02))
+    (one, _), (other, _) = near_and_far(work, name, 6, sizes, tmp_path / "hollow.off")
+    assert_alike(one, other, ["wall", "least_wall", "deepest", "volume", "cavities"], 1e-3)
+    assert one["warnings"] == other["warnings"]
+
+
+@farthest
+@pytest.mark.parametrize("name", ["tube", "profile"])
+def test_skeletons(name, sizes, tmp_path):
+    work = SkeletonWork(Settings(samples=1500), SkeletonSettings())
+    reports = []
+    for distance in (0.0, sizes):
+        shape, _ = placed(name, 7, distance)
+        found, report = run(work, shape, tmp_path / "s.swc")
+        reports.append(report)
+        away = to_triangles(found.skeleton.points, found.shape.points[found.shape.triangles])
+        assert (np.abs(away) >= 0.9 * found.skeleton.radius).all()
+    assert_alike(*reports, ["loops", "pieces"])
+    assert reports[0]["warnings"] == reports[1]["warnings"]
+
+
+@farthest
+@pytest.mark.parametrize("name", ["box", "profile"])
+@pytest.mark.parametrize("shapes", [CoverShapes.BALLS, CoverShapes.CAPSULES])
+def test_balls(name, sizes, shapes, tmp_path):
+    work = BallsWork(Settings(samples=1500), BallSettings(count=12, shapes=shapes))
+    reports = []
+    for distance in (0.0, sizes):
+        shape, _ = placed(name, 8, distance)
+        reports.append(run(work, shape, tmp_path / "b.json")[1])
+    assert_alike(*reports, ["covered"], 0.02)
+    assert_alike(*reports, ["outside"], 1e-3)
+
+
+@far
+def test_reconstructions_and_small_meshes(sizes):
+    points = icosphere(4)[0] * (0.5, 0.4, 0.3)
+    offset = sizes * DIRECTION
+    near, there = library.reconstruct(points), library.reconstruct(points + offset)
+    np.testing.assert_allclose(there.vertices, near.vertices + offset, rtol=0, atol=1e-14 * sizes)
+    shape, _ = placed("profile", 9, sizes)
+    found = library.compute(shape.points, shape.triangles, samples=1500)
+    small = library.reduce(found, 20)
+    away = np.abs(to_triangles(small.vertices, shape.points[shape.triangles]))
+    assert np.abs(small.radius - away).max() <= 0.03
+    again = library.extract(found, simplify=1.0)
+    assert (np.abs(again.vertices - offset) < 2.0).all()
+
+
+def test_points_alone():
+    """Clouds, whose inside the poles or Tight Cocone tell."""
+    points = icosphere(4)[0] * (0.5, 0.4, 0.3)
+    for sides in (SidesFrom.POLES, SidesFrom.TIGHT_COCONE):
+        near, there = (
+            library.compute(points @ rotation(2).T + far, sides=sides, form=Form.CLEAN)
+            for far in (0.0, 1e5 * DIRECTION)
+        )
+        assert near.axis.level.betti == there.axis.level.betti
+        assert near.axis.radius.max() == pytest.approx(there.axis.radius.max(), rel=0.01)
+
+
+# --- coordinates in 32 bits
+
+
+@pytest.mark.parametrize("name", ["plate", "profile"])
+def test_single_coordinates_at_a_thousand_sizes(name, tmp_path):
+    """Their noise is 10^-4 sizes there: the products are those at the origin up to a few times that."""
+    work = ThicknessWork(Settings(), ThicknessSettings(limit=0.08))
+    reports = []
+    for distance in (0.0, 1e3):
+        shape, _ = placed(name, 3, distance, single=True)
+        reports.append(run(work, shape, tmp_path / "t.json")[1])
+    assert bool(reports[1]["patches"]) == (SOLIDS[name][1] < 0.08)
+    if SOLIDS[name][1]:
+        assert_alike(*reports, ["minimum"], 2e-3)
+    shape, _ = placed(name, 3, 1e3, single=True)
+    found = library.compute(shape.points, shape.triangles, samples=1500)
+    near, _ = placed(name, 3, 0.0)
+    there = library.compute(near.points, near.triangles, samples=1500)
+    assert found.axis.level.betti == there.axis.level.betti
+
+
+@pytest.mark.parametrize("name", ["box", "profile"])
+def test_single_coordinates_at_a_hundred_thousand_sizes_are_told(name):
+    """A hundredth of the size is lost there: a result has a warning, or there is none."""
+    shape, _ = placed(name, 3, 1e5, single=True)
+    try:
+        found = library.compute(shape.points, shape.triangles, samples=1500)
+    except MedialAxisError:
+        return
+    assert any("known to about" in warning for warning in found.warnings)
+
+
+# --- the frame itself
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_moving_is_exact(seed):
+    random = np.random.default_rng(seed)
+    points = random.normal(size=(50, 3)) * 10.0 ** random.integers(-6, 6)
+    points += random.normal(size=3) * 10.0 ** random.integers(-3, 9)
+    shape, origin = in_own_frame(Shape(points, np.zeros((0, 3), np.int32)))
+    np.testing.assert_array_equal(shape.points + origin, points)
+    np.testing.assert_array_equal(shape.frame[:3, 3], origin)
+    assert (np.abs(shape.points).max(axis=0) <= 2.0 * np.ptp(points, axis=0)).all()
+
+
+def test_solids_round_the_origin_stay():
+    shape, _ = placed("profile", 1, 0.0)
+    assert in_own_frame(shape)[0] is shape
+
+
+def test_coordinates_of_32_bits_are_told_by_their_numbers(medial):
+    grid = np.array(box()[0], float) * 100.0 + 300_000.0
+    assert not medial.are_single(grid) and own_origin(grid).any()
+    noisy = (grid + np.random.default_rng(1).normal(size=grid.shape)).astype(np.float32)
+    assert medial.are_single(noisy.astype(float)) and not own_origin(noisy.astype(float)).any()
+    assert medial.rounding_of(noisy.astype(float)) == pytest.approx(4.8e-7 * 3e5, rel=0.02)
+    assert medial.rounding_of(grid) <= 4.8e-7 * 100.0
+    assert medial.rounding_of(np.empty((0, 3))) == 0.0
