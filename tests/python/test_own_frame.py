@@ -21,7 +21,6 @@ from medial_axis.core.settings import (
     CoverShapes,
     Form,
     HollowSettings,
-    Mesh,
     MidSurfaceSettings,
     Settings,
     SidesFrom,
@@ -104,12 +103,11 @@ every = pytest.mark.parametrize("name", SOLIDS)
 
 @far
 @every
-@pytest.mark.parametrize("mesh", [Mesh.EVEN, Mesh.VORONOI])
-def test_axes_have_the_radii_of_the_faces(name, sizes, mesh):
+def test_axes_have_the_radii_of_the_faces(name, sizes):
     """A ball ends at the faces, but for few that end at samples."""
     shape, near = placed(name, 1, sizes)[0], placed(name, 1, 0.0)[0]
     found, there = (
-        library.compute(some.points, some.triangles, samples=1500, mesh=mesh, smooth=False)
+        library.compute(some.points, some.triangles, samples=1500, smooth=False)
         for some in (shape, near)
     )
     axis = found.axis
@@ -187,7 +185,7 @@ def test_balls(name, sizes, shapes, tmp_path):
     for distance in (0.0, sizes):
         shape, _ = placed(name, 8, distance)
         reports.append(run(work, shape, tmp_path / "b.json")[1])
-    assert_alike(*reports, ["covered"], 0.02)
+    assert_alike(*reports, ["covered"], 0.05)
     assert_alike(*reports, ["outside"], 1e-3)
 
 

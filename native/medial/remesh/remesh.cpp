@@ -13,6 +13,7 @@ namespace {
 // collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
+constexpr double kCrumpled = 0.5;       // the cosine between facets of a sheet that is not flat
 constexpr double kFewCollapses = 0.01;  // of the vertices end the passes
 constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
 constexpr double kStep = 0.5;           // of the way to there, which levels a zigzag at once
@@ -218,14 +219,27 @@ class Remesher {
   std::vector<int32_t> moved_, split_off_;
 };
 
+// Returns whether the facets of one sheet at a vertex look different ways.
+bool is_crumpled(const EvenMesh& even, int32_t v) {
+  const SheetComplex& mesh = even.mesh;
+  const Stratum stratum = mesh.stratum(v);
+  if (stratum == Stratum::node) return false;
+  if (stratum == Stratum::curve && mesh.uses(v, mesh.along_curve(v)[0]) != 1) return false;
+  const Vec3 mean = normal_at(even, v);
+  bool found = false;
+  mesh.for_triangles(
+      v, [&](int32_t t) { found = found || std::abs(dot(even.normal[t], mean)) < kCrumpled; });
+  return found;
+}
+
 }  // namespace
 
 void merge_close(EvenMesh& even, std::span<const double> within) {
   SheetComplex& mesh = even.mesh;
   std::vector<int32_t> at;
   const auto merge = [&](int32_t from, int32_t to) {
-    if (even.held[from] || mesh.stratum(from) > mesh.stratum(to)) return false;
-    if (!mesh.has_triangles(from) || !mesh.can_collapse(from, to)) return false;
+    if (!mesh.has_triangles(from) || even.held[from] || !is_crumpled(even, from)) return false;
+    if (mesh.stratum(from) > mesh.stratum(to) || !mesh.can_collapse(from, to)) return false;
     at.clear();
     mesh.for_triangles(from, [&](int32_t t) { at.push_back(t); });
     mesh.collapse(from, to);

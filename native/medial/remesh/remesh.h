@@ -19,8 +19,8 @@ struct RemeshOptions {
   std::function<Vec3(const Vec3&)> onto_line;
 };
 
-// Merges vertices that are nearer to each other than `within`, (v): they are one place, as far as
-// the samples tell, so what this turns over is no fold of the sheet. Held vertices stay.
+// Merges vertices of crumpled sheets that are nearer to each other than `within`, (v): they are one
+// place, as far as the samples tell, so what this turns over is no fold. Held vertices stay.
 void merge_close(EvenMesh& even, std::span<const double> within);
 
 // Splits, collapses, flips and smooths once.
