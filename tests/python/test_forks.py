@@ -38,7 +38,7 @@ def curves():
     found = {}
     for name, (solid, *_) in SOLIDS.items():
         points, triangles = (np.asarray(a) for a in solid())
-        settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=4_000)
+        settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=4_000, seed=1)
         computation = compute_axis(Shape(points.astype(float), triangles), settings)
         asked = {}
 
@@ -90,7 +90,7 @@ def turns(axis, radii):
 def test_there_is_no_kink_at_a_fork(curves, name):
     wires, smooth, _, _ = curves[name]
     assert len(turns(smooth, 0.25)) == len(turns(wires, 0.25)) == 1
-    assert turns(wires, 0.25)[0] > 10.0  # else the test sees nothing
+    assert turns(wires, 0.25)[0] > 20.0  # else the test sees nothing
     assert turns(smooth, 0.25)[0] < 12.0
 
 
@@ -109,7 +109,7 @@ def test_a_fork_stays_in_its_ball_and_has_the_radius_of_its_place(curves, name):
     wires, smooth, depth, _ = curves[name]
     (old,), (new,) = wires_at_forks(wires), wires_at_forks(smooth)
     way = np.linalg.norm(smooth.vertices[new] - wires.vertices[old])
-    assert way <= 0.5 * wires.radius[old]
+    assert 0.0 < way <= 0.5 * wires.radius[old]
     there, before = depth(np.stack((smooth.vertices[new], wires.vertices[old])))
     assert smooth.radius[new] - wires.radius[old] == pytest.approx(there - before, abs=1e-12)
 
