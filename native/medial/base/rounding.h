@@ -13,9 +13,9 @@ namespace medial {
 bool are_single(std::span<const Vec3> rows);
 
 // Returns how far apart places may be that were meant to be one, and how far points may be from the
-// plane that they were meant to lie in: four roundings to float32, in which meshes are stored. Those
-// of coordinates that were rounded grow with the distance from the origin. Others are known better,
-// whatever made them, and it is the size of their box that counts, wherever that lies.
+// plane that they were meant to lie in: four roundings to float32, in which meshes are stored.
+// Those of coordinates that were rounded grow with the distance from the origin. Others are known
+// better, whatever made them, and it is the size of their box that counts, wherever that lies.
 double rounding_of(std::span<const Vec3> rows);
 
 }  // namespace medial

@@ -63,10 +63,11 @@ struct Frame {
   Vec3 out(const Point& p) const { return middle + diagonal * Vec3{p.x(), p.y(), p.z()}; }
 };
 
-// Coordinates of at most one are off by as much, so a thinner triangle has no plane: CGAL may never end on such.
+// Coordinates of at most one are off by as much, so a thinner triangle has no plane: CGAL may never
+// end on such.
 bool has_area(const Point& a, const Point& b, const Point& c) {
-  const double longest = std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c),
-                                   CGAL::squared_distance(c, a)});
+  const double longest = std::max(
+      {CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)});
   const double rounding = std::numeric_limits<double>::epsilon();
   const Kernel::Vector_3 normal = CGAL::cross_product(b - a, c - a);
   return normal.squared_length() > rounding * rounding * longest;

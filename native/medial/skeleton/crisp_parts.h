@@ -4,6 +4,7 @@
 
 #include "base/csr.h"
 #include "skeleton/crisp.h"
+#include "skeleton/empty_ball.h"
 
 namespace medial {
 
