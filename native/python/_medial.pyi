@@ -1477,7 +1477,7 @@ def are_single(points: NDArray[np.float64]) -> bool:
     points : (n, 3) float64
     """
 
-def rounding_of(points: NDArray[np.float64]) -> float:
+def rounding_of(points: NDArray[np.float64], far: float = 0.0) -> float:
     """How far apart places may be that were meant to be one: four roundings to float32, in which meshes are stored.
 
     Those of coordinates that were rounded grow with the distance from the origin. Others are known better, and it is
@@ -1486,6 +1486,8 @@ def rounding_of(points: NDArray[np.float64]) -> float:
     Parameters
     ----------
     points : (n, 3) float64
+    far : float
+        The largest coordinate before the points were moved; 0.0 where they were not.
     """
 
 def mesh_parts(

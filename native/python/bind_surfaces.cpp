@@ -272,8 +272,10 @@ void bind_surfaces(py::module_& m) {
       docs::are_single, py::arg("points"));
   m.def(
       "rounding_of",
-      [](const py::object& points) { return rounding_of(Points(points, "points").span()); },
-      docs::rounding_of, py::arg("points"));
+      [](const py::object& points, double far) {
+        return rounding_of(Points(points, "points").span(), far);
+      },
+      docs::rounding_of, py::arg("points"), py::arg("far") = 0.0);
   m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));
   m.def("part_places", &places_of_parts, docs::part_places, py::arg("points"),
         py::arg("triangles"));

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
 # looked at, in roundings.
 _FOLDED, _OFF = -0.99, 4
 
-# As in `_medial.rounding_of`.
-_ROUNDINGS, _DOUBLE = 4, float(np.finfo(np.float64).eps)
-
 
 @dataclass(frozen=True, eq=False)
 class Shape:
@@ -75,7 +72,7 @@ class Shape:
     def rounding(self) -> float:
         """How far apart places may be that were meant to be one, as exactly as the coordinates were given."""
         with native.own_errors() as module:
-            return max(module.rounding_of(self.points), _ROUNDINGS * _DOUBLE * self.far)
+            return float(module.rounding_of(self.points, self.far))
 
     @cached_property
     def volume(self) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..axis.directions import corners_after, facet_areas, facet_normals
 from ..axis.facet_triangles import triangulate_facets
-from ..axis.medial_axis import ON_CREASE, ON_RIM
+from ..axis.medial_axis import ON_CREASE
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
 from ..united import united
@@ -110,15 +110,14 @@ def thin_sheets(
     kept = _without_frayed(turned, chosen[part], between)
     kept &= _in_wide_pieces(turned, kept, areas, at_edge, least_width)
     left = np.bincount(part[kept], minlength=structure.parts) > 0
-    ends, level = _at_ends_of_junctions(turned, part, kept), cast("LevelValues", axis.level)
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
     rows = np.flatnonzero(kept[facets])
     facets = facets[rows]
     number = np.cumsum(left) - 1
     return ThinSheets(
-        vertices=np.where(ends[:, None], level.exact, turned.vertices),
-        radius=np.where(ends, level.exact_radius, turned.radius),
-        at_edge=at_edge & ~ends,
+        vertices=turned.vertices,
+        radius=turned.radius,
+        at_edge=at_edge,
         facet=facets,
         facing=(facing & _even(turned))[facets],
         sliver=slivers[facets],
@@ -128,27 +127,6 @@ def thin_sheets(
         slopes=slopes[facets],
         parts=int(left.sum()),
     )
-
-
-def _at_ends_of_junctions(
-    axis: MedialAxis, part: NDArray[np.int32], kept: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """(v,) the vertices at smooth rims whose facet reaches a line in which kept sheets meet.
-
-    Their crisp places are where the walls that a ball touches become one. There these are beyond the walls of the
-    sheet, and their order along the rim may be another one, so the Voronoi diagram tells better where they are.
-    """
-    sizes = np.diff(axis.face_offsets)
-    mine = np.repeat(kept, sizes)
-    corner_part = np.repeat(part, sizes)
-    low = np.full(len(axis.vertices), part.max() + 1)
-    high = np.full(len(axis.vertices), -1)
-    np.minimum.at(low, axis.face_vertices[mine], corner_part[mine])
-    np.maximum.at(high, axis.face_vertices[mine], corner_part[mine])
-    reaches = np.logical_or.reduceat((low < high)[axis.face_vertices], axis.face_offsets[:-1])
-    found = np.zeros(len(axis.vertices), bool)
-    found[axis.face_vertices[np.repeat(reaches & kept, sizes)]] = True
-    return np.asarray(found & (cast("LevelValues", axis.level).place == ON_RIM))
 
 
 def _slopes(

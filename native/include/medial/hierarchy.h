@@ -18,7 +18,7 @@ enum class Placing : uint8_t {
   voronoi,   // at a Voronoi vertex, or of a wire, or where no faces are known
   refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
   touching,  // the ball touches the walls, and no face is nearer
-  rim,       // at the end of a sheet, where the two places that the ball touches become one
+  rim,       // at the end of a smooth sheet; in results of earlier versions only
   crease,    // on a convex crease, with radius 0
   corner     // at the end of convex creases, with radius 0
 };

@@ -22,14 +22,14 @@ bool are_single(std::span<const Vec3> rows) {
   return (bits & 1) != 0;
 }
 
-double rounding_of(std::span<const Vec3> rows) {
+double rounding_of(std::span<const Vec3> rows, double far) {
   constexpr double kRoundings = 4;
   if (rows.empty()) return 0;
   const Box box = box_of(rows);
-  const double far = std::max(max_abs(box.low), max_abs(box.high));
-  const double size = are_single(rows) ? far : 0.5 * max_abs(box.extent());
+  const double largest = std::max(max_abs(box.low), max_abs(box.high));
+  const double size = are_single(rows) ? largest : 0.5 * max_abs(box.extent());
   return kRoundings * std::max(std::numeric_limits<float>::epsilon() * size,
-                               std::numeric_limits<double>::epsilon() * far);
+                               std::numeric_limits<double>::epsilon() * std::max(far, largest));
 }
 
 }  // namespace medial

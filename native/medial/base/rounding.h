@@ -16,6 +16,7 @@ bool are_single(std::span<const Vec3> rows);
 // plane that they were meant to lie in: four roundings to float32, in which meshes are stored.
 // Those of coordinates that were rounded grow with the distance from the origin. Others are known
 // better, whatever made them, and it is the size of their box that counts, wherever that lies.
-double rounding_of(std::span<const Vec3> rows);
+// `far` is the largest coordinate before the rows were moved, 0 where they were not.
+double rounding_of(std::span<const Vec3> rows, double far = 0);
 
 }  // namespace medial

@@ -201,11 +201,9 @@ SmoothRim EvenPlaces::way_out(int32_t v) const {
 // is thinner than the holes between its samples shows no sheets that go on into its edges.
 SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
   if (!has_parallel_walls(v)) return {};
-  const Vec3 outward = outward_at(v);
-  const Vec3 far = e_.position[v] + hole_at(v) * outward;
+  const Vec3 far = e_.position[v] + hole_at(v) * outward_at(v);
   if (ball_between(v, far).radius > 0) return {};
-  const Vec3 last = last_place(v, far);
-  return {outward, distance(last, e_.position[v]), true};
+  return {distance(last_place(v, far), e_.position[v]), true};
 }
 
 bool EvenPlaces::has_parallel_walls(int32_t v) const { return openness(found_[v].away) > kPlate; }
@@ -238,9 +236,8 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
   });
   if (inner < 0) return {};
   const Vec3 last = last_place(inner, e_.position[v]);
-  const Vec3 way = last - e_.position[v];
   if (last == e_.position[inner]) return {};
-  return {-normalized(way), length(way), has_parallel_walls(inner)};
+  return {distance(last, e_.position[v]), has_parallel_walls(inner)};
 }
 
 // The squared sine of half the angle between the feet falls nearly linearly towards the end, where

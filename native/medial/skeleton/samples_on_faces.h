@@ -29,7 +29,6 @@ class SamplesOnFaces {
   int32_t triangle(int32_t sample) const {
     return sample < static_cast<int32_t>(triangle_.size()) ? triangle_[sample] : -1;
   }
-  bool is_on_crease(int32_t sample) const { return on_crease_[sample] != 0; }
   // Returns the place of the convex crease in which the tangent planes at two samples meet, as near
   // to `at` as possible; nothing if they do not meet in one. If one sample is on a crease, it is
   // the place of this sample.

@@ -73,7 +73,7 @@ SmoothRim smooth_rim_of(const Faces& faces, double hole, const Touch& inner) {
     if (!(reach < farthest)) return {};
     reach = distance_to_rim(faces, inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
   }
-  return reach < farthest ? SmoothRim{outward, reach} : SmoothRim{};
+  return reach < farthest ? SmoothRim{reach} : SmoothRim{};
 }
 
 }  // namespace medial

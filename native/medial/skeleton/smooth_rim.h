@@ -6,14 +6,13 @@
 
 namespace medial {
 
-// Tells how far, and in which direction, the end of a sheet is; 0 if none is near.
+// Tells how far the end of a sheet is; 0 if none is near.
 struct SmoothRim {
-  Vec3 outward;
   double reach = 0;
   bool at_wall = false;  // whether a third wall ends the sheet
 };
 
-// Returns how far a smooth rim is from a ball that touches two places, and in which direction.
+// Returns how far a smooth rim is from a ball that touches two places.
 SmoothRim smooth_rim_of(const Faces& faces, double hole, const Touch& inner);
 
 }  // namespace medial
