@@ -583,8 +583,8 @@ MUTATIONS = (
     ),
     Mutation(
         "skeleton/even_sheets.cpp",
-        "return h_.samples.nearest(place).distance;",
-        "return h_.samples.nearest(level_.exact[i]).distance;",
+        "h_.samples.nearest(even.position[v]).distance",
+        "h_.samples.nearest(level_.exact[i]).distance",
         "balls of moved vertices are those of the old places",
     ),
     Mutation(

@@ -177,18 +177,6 @@ class EvenSheets {
     spread_least(mesh, even.position, kSlope, even.target);
   }
 
-  // Returns the radius of a vertex whose ball touches no two walls: the distance to the faces where
-  // it has walls, else that to the samples.
-  double radius_at(int64_t i) const {
-    const Vec3& place = level_.vertices[i];
-    if (level_.place[i] == Placing::refused) {
-      const auto foot = samples_->faces().nearer(place, HUGE_VAL);
-      if (samples_->are_near(foot->point)) return foot->distance;
-    }
-    if (place == level_.exact[i]) return level_.exact_radius[i];
-    return h_.samples.nearest(place).distance;
-  }
-
   void write(const EvenMesh& even, const EvenPlaces* places);
 
   Level& level_;
@@ -261,7 +249,13 @@ void EvenSheets::write(const EvenMesh& even, const EvenPlaces* places) {
     const int32_t v = vertices[i];
     level_.vertices[i] = even.position[v];
     if (places) level_.place[i] = places->placing()[v];
-    level_.radius[i] = level_.place[i] >= Placing::touching ? places->radius()[v] : radius_at(i);
+    if (level_.place[i] >= Placing::touching) {
+      level_.radius[i] = places->radius()[v];
+    } else if (level_.vertices[i] == level_.exact[i]) {
+      level_.radius[i] = level_.exact_radius[i];
+    } else {
+      level_.radius[i] = h_.samples.nearest(even.position[v]).distance;
+    }
   });
 }
 
