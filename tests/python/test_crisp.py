@@ -514,7 +514,9 @@ def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(crisp, media
     assert turns.mean() < 12.0 and np.mean(turns > 60.0) < 0.05
     assert output.rings().folded().sum() < 90
     off = np.abs(output.radius - distance.to_triangles(output.vertices, mesh[0][mesh[1]]))
-    assert off.mean() < 3e-5 * np.linalg.norm(np.ptp(mesh[0], axis=0))
+    touching = made.axis.level.is_crisp  # the balls of others end at the samples, as told
+    assert touching.mean() > 0.95
+    assert off[touching].mean() < 3e-5 * np.linalg.norm(np.ptp(mesh[0], axis=0))
 
 
 def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
