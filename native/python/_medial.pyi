@@ -468,6 +468,48 @@ class Hierarchy:
     @property
     def timings(self) -> dict[str, float]:
         """Seconds of each stage, in order."""
+    def even(
+        self,
+        *,
+        spacings: float = 0.0,
+        limb: float = 0.04,
+        round_limbs: bool = False,
+        crisp: bool = False,
+        progress: Progress | None = None,
+    ) -> Hierarchy:
+        """The hierarchy of a level that gets a mesh of its own: even triangles, and not the facets of the Voronoi
+        diagram. Its facets are the triangles, each with the generators, theta and rho of a facet for which it stands,
+        and its levels without thresholds are all of the mesh. At others, new rims are smooth lines.
+
+        Parameters
+        ----------
+        spacings, limb, round_limbs
+            The thresholds of the level, as in `extract`.
+        crisp : bool
+            If the hierarchy was made with faces, the vertices are where balls touch them.
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+    def selecting(
+        self, theta: float, rho: float, *, progress: Progress | None = None
+    ) -> Hierarchy:
+        """The hierarchy of the same even mesh at other thresholds of MEDIAL, where these are higher; what lower ones
+        would select is not in the mesh.
+
+        Parameters
+        ----------
+        theta : float
+            In radians.
+        rho : float
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
     def extract(
         self,
         *,
@@ -479,7 +521,6 @@ class Hierarchy:
         relaxed: bool = False,
         round_limbs: bool = False,
         crisp: bool = False,
-        even: bool = False,
         progress: Progress | None = None,
     ) -> Level:
         """The level at some thresholds. A facet stays if it exceeds the first four. A vertex or an edge stays if it
@@ -504,10 +545,7 @@ class Hierarchy:
         round_limbs : bool
             Of wires with a loose end only those that run in round limbs.
         crisp : bool
-            Vertices are at their crisp places, if the hierarchy was made with faces.
-        even : bool
-            Sheets are even triangles, each with the values of a facet that it stands for, and not the facets of the
-            Voronoi diagram. If the hierarchy was made with faces, the vertices are where balls touch them.
+            Vertices are at their crisp places, if the hierarchy was made with faces; those of even meshes always are.
         progress : Progress, optional
 
         Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.

@@ -37,7 +37,7 @@ auto framed_property(const Part& part) {
 py::array generator_rows(const Hierarchy& h) {
   std::vector<Edge> rows;
   for (const auto& [p, q] : h.parts().complex.generators) {
-    rows.push_back({h.parts().row[p], h.parts().row[q]});
+    rows.push_back({(*h.parts().row)[p], (*h.parts().row)[q]});
   }
   return array_of<int32_t>(std::move(rows));
 }
@@ -46,14 +46,14 @@ py::array shrunk_rows(const Hierarchy& h) {
   std::vector<std::array<int32_t, 4>> rows;
   for (const ShrunkFacet& s : h.parts().complex.shrunk) {
     const auto& [p, q] = s.generators;
-    rows.push_back({h.parts().row[p], h.parts().row[q], s.edge, s.vertex});
+    rows.push_back({(*h.parts().row)[p], (*h.parts().row)[q], s.edge, s.vertex});
   }
   return array_of<int32_t>(std::move(rows));
 }
 
 py::array bubble_rows(const Hierarchy& h) {
   std::vector<int32_t> rows;
-  for (const int32_t p : h.parts().complex.bubbles) rows.push_back(h.parts().row[p]);
+  for (const int32_t p : h.parts().complex.bubbles) rows.push_back((*h.parts().row)[p]);
   return array_of<int32_t>(std::move(rows));
 }
 
@@ -237,22 +237,37 @@ void bind_hierarchy(py::module_& m) {
           "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
           docs::Hierarchy_timings)
       .def(
-          "extract",
-          [](const Hierarchy& h, double sheet, double spacings, double erosion, double spike,
-             double limb, bool relaxed, bool round_limbs, bool crisp, bool even,
+          "even",
+          [](const Hierarchy& h, double spacings, double limb, bool round_limbs, bool crisp,
              Progress* progress) {
             const py::gil_scoped_release release;
-            return h.extract(
-                {sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp, even},
-                progress);
+            return h.even({spacings, limb, round_limbs, crisp}, progress);
+          },
+          docs::Hierarchy_even, py::kw_only(), py::arg("spacings") = EvenOptions{}.spacings,
+          py::arg("limb") = EvenOptions{}.limb, py::arg("round_limbs") = EvenOptions{}.round_limbs,
+          py::arg("crisp") = EvenOptions{}.crisp, py::arg("progress") = nullptr)
+      .def(
+          "selecting",
+          [](const Hierarchy& h, double theta, double rho, Progress* progress) {
+            const py::gil_scoped_release release;
+            return h.selecting(theta, rho, progress);
+          },
+          docs::Hierarchy_selecting, py::arg("theta"), py::arg("rho"), py::kw_only(),
+          py::arg("progress") = nullptr)
+      .def(
+          "extract",
+          [](const Hierarchy& h, double sheet, double spacings, double erosion, double spike,
+             double limb, bool relaxed, bool round_limbs, bool crisp, Progress* progress) {
+            const py::gil_scoped_release release;
+            return h.extract({sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp},
+                             progress);
           },
           docs::Hierarchy_extract, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,
           py::arg("erosion") = LevelOptions{}.erosion, py::arg("spike") = LevelOptions{}.spike,
           py::arg("limb") = LevelOptions{}.limb, py::arg("relaxed") = LevelOptions{}.relaxed,
           py::arg("round_limbs") = LevelOptions{}.round_limbs,
-          py::arg("crisp") = LevelOptions{}.crisp, py::arg("even") = LevelOptions{}.even,
-          py::arg("progress") = nullptr);
+          py::arg("crisp") = LevelOptions{}.crisp, py::arg("progress") = nullptr);
 }
 
 }  // namespace medial::python

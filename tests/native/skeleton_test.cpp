@@ -171,12 +171,12 @@ TEST(Wires, ElongationInACapsuleIsTheWayFromTheEndOfItsAxisOnEachEdge) {
       inner_complex(made.samples, made.triangulation, made.voronoi, made.edges, made.sides, run);
   const Facets facets{made.samples.points, made.triangulation, made.voronoi,
                       made.edges,          made.significance,  made.sides};
-  const FacetWeights weight(facets, {});
+  const EdgeWeights weight(facets, {});
   Collapse collapse = whole(complex, weight, run);
   open_bubbles(complex, weight, collapse, run);
   peel_facets(complex, weight, collapse, run);
   peel_wires(complex, collapse, run);
-  const Burning burning = burn(complex, made.samples.points, collapse, run);
+  const Burning burning = burn(complex, radius_by(complex, made.samples.points), collapse, run);
   const Wires wires = burn_wires(complex, burning, collapse, run);
   const Hierarchy hierarchy = analysis.hierarchy({});  // knows which edges are no short spurs
   // A line through elongations over ways, by least squares.
@@ -396,7 +396,8 @@ TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
   const auto points = test::ellipsoid(1500, 3);
   const Level level = MedialAnalysis({points}, {.threads = 2}, nullptr)
                           .hierarchy({})
-                          .extract({.limb = 1, .relaxed = true, .even = true});
+                          .even({.limb = 1})
+                          .extract({.limb = 1, .relaxed = true});
   ASSERT_FALSE(level.vertices.empty());
   int moved = 0;
   for (size_t v = 0; v < level.vertices.size(); ++v) {

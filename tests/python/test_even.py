@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Even meshes of clean forms: shape of the triangles, exact places on solids with known axes, topology, values."""
 
+from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -51,6 +53,12 @@ def euler(axis):
     triangles = axis.face_vertices.reshape(-1, 3)
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return len(axis.vertices) - len(np.unique(sides, axis=0)) - len(axis.edges) + len(triangles)
+
+
+def area_of(level):
+    corners = level.vertices[level.face_vertices.reshape(-1, 3)]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return 0.5 * np.linalg.norm(across, axis=1).sum()
 
 
 @pytest.mark.parametrize("name", FLAT)
@@ -150,6 +158,101 @@ def test_bytes_do_not_depend_on_the_threads(medial):
         hierarchy = analysis.hierarchy(
             faces=solid.of_module(medial, computation.settings), places=False
         )
-        level = hierarchy.extract(spacings=1.0, even=True, crisp=True, relaxed=True)
+        even = hierarchy.even(spacings=1.0, crisp=True)
+        level = even.extract(crisp=True, relaxed=True)
         axes.append((level.vertices.tobytes(), level.face_vertices.tobytes()))
     assert axes[0] == axes[1] == axes[2]
+
+
+# --- the hierarchy of an even mesh: levels, Theta and Rho
+
+
+@pytest.fixture(scope="module")
+def hand(medial):
+    """Return the hierarchies of a hand: of the Voronoi diagram, and of its even mesh."""
+    from medial_axis.core.axis.levels import hierarchy_of
+
+    found = of_file(REAL[1])
+    hierarchy = hierarchy_of(found.chosen.samples, found.settings, None)
+    return hierarchy, hierarchy.even(spacings=1.0, round_limbs=True, crisp=True)
+
+
+def test_levels_without_thresholds_are_the_whole_mesh(hand):
+    _, even = hand
+    level = even.extract(crisp=True)
+    assert np.array_equal(level.facet_of, np.arange(len(even.generators)))
+    triangles = level.vertex_of[level.face_vertices].reshape(-1, 3)
+    assert np.array_equal(np.sort(triangles), np.sort(even.facet_vertices.reshape(-1, 3)))
+    assert np.array_equal(level.vertices, even.vertices[level.vertex_of])
+
+
+@pytest.mark.parametrize("name", ["sheet", "erosion", "spike"])
+def test_levels_of_a_mesh_are_nested_and_keep_the_topology(hand, name):
+    hierarchy, even = hand
+    values = getattr(even, f"facet_{name}")
+    area = np.inf
+    for share in (0.1, 0.4, 0.7, 0.95):
+        threshold = float(np.quantile(values, share))
+        level = even.extract(**{name: threshold})
+        assert np.all(values[level.facet_of] > threshold) and level.betti == hierarchy.betti
+        axis = SimpleNamespace(
+            vertices=level.vertices,
+            edges=level.wires,
+            face_vertices=level.face_vertices,
+        )
+        assert euler(axis) == 1 and not len(level.points)
+        triangles = level.face_vertices.reshape(-1, 3)
+        assert len(crossing_triangles.crossing_pairs(level.vertices, triangles)) == 0
+        before, area = area, area_of(level)
+        assert area <= before
+
+
+def test_higher_theta_and_rho_are_levels_of_the_same_mesh(hand):
+    hierarchy, even = hand
+    area = area_of(even.extract())
+    for theta, rho in ((0.5, 8.0), (0.8, 10.0), (1.2, 20.0)):
+        level = even.selecting(theta, rho).extract()
+        assert level.betti == hierarchy.betti
+        before, area = area, area_of(level)
+        assert 0.0 < area < before
+
+
+def test_a_level_does_not_depend_on_those_before(hand):
+    hierarchy, even = hand
+    value = float(np.quantile(even.facet_erosion, 0.5))
+    again = hierarchy.even(spacings=1.0, round_limbs=True, crisp=True)
+    again.extract(spike=0.01)
+    again.selecting(1.0, 9.0)
+    one, other = (h.extract(erosion=value, relaxed=True) for h in (even, again))
+    for name in ("vertices", "radius", "face_vertices", "wires", "generators"):
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name
+
+
+def test_new_rims_are_no_staircases():
+    """Rims of triangles that are left out would turn by some 50 degrees at each vertex."""
+    import medial_axis
+
+    found = of_file(REAL[1])
+    eroded = medial_axis.extract(found, erode=0.1)
+    assert 0.5 * found.axis.facets < eroded.facets < 0.95 * found.axis.facets
+    output = crisp_measures.output_of(replace(found, axis=eroded), np.eye(3))
+    assert crisp_measures.rim_turns(output).mean() < 15
+
+
+def test_what_is_far_from_new_rims_stays(hand):
+    _, even = hand
+    thin = float(np.unique(even.facet_sheet)[-2])
+    level = even.extract(sheet=thin)
+    assert 0.5 < len(level.facet_of) / len(even.generators) < 0.9
+    assert np.mean(np.isin(level.vertices, even.vertices).all(axis=1)) > 0.9
+
+
+def test_what_is_no_even_mesh_cannot_select_and_what_is_cannot_be_made_again(medial, hand):
+    hierarchy, even = hand
+    with pytest.raises(medial.InvalidInputError, match="call `even` once"):
+        even.even()
+    with pytest.raises(medial.InvalidInputError, match="call `even` first"):
+        hierarchy.selecting(1.0, 8.0)
+    for theta, rho in ((-0.1, 8.0), (1.0, float("nan"))):
+        with pytest.raises(medial.InvalidInputError):
+            even.selecting(theta, rho)

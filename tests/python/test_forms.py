@@ -183,7 +183,9 @@ def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
     again = computed(shape, erode=2.0)
     assert again.chosen.samples.levels is samples.levels and CACHE.analyses == before
     assert same_axis(again.axis, medial_axis.extract(found, erode=2.0))
-    medial_axis.extract(found, theta=1.0)
+    medial_axis.extract(found, theta=1.0, rho=20.0, limb=9.0)  # levels of the even mesh
+    assert hierarchy_of(samples, found.settings, None) is hierarchy
+    medial_axis.extract(found, theta=0.2)
     assert hierarchy_of(samples, found.settings, None) is not hierarchy
 
 

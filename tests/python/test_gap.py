@@ -55,10 +55,10 @@ def test_what_is_meant_does_not_go():
 
 @pytest.fixture(scope="module")
 def rough():
-    """An ellipsoid whose vertices have errors of about a sixth of their distance."""
+    """An ellipsoid whose vertices have errors of about a quarter of their distance."""
     points, triangles = icosphere(4)
     points = np.asarray(points) * (1.0, 0.7, 0.4)
-    noise = np.random.default_rng(1).normal(scale=0.012, size=points.shape)
+    noise = np.random.default_rng(1).normal(scale=0.02, size=points.shape)
     clean, noisy = (
         compute(each, triangles, Settings(**BY_VERTICES)) for each in (points, points + noise)
     )

@@ -386,14 +386,20 @@ def test_axis_of_a_coarse_ring_of_circles_is_a_circle(medial):
 # --- what it is asked
 
 
+def assert_same_values(one, other):
+    names = [n for n in dir(one) if not n.startswith("_") and n != "timings"]
+    names = [n for n in names if not callable(getattr(one, n))]
+    assert len(names) > 20
+    for name in names:
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name
+
+
 @pytest.mark.turn
 def test_the_same_bytes_for_every_thread_count(medial):
     points = SHAPES["ellipsoid"].random_sample(20000, 0)
     one, three = (medial.MedialAnalysis(points, threads=t).hierarchy() for t in (1, 3))
-    names = [n for n in dir(one) if not n.startswith("_") and n not in ("extract", "timings")]
-    assert len(names) > 20
-    for name in names:
-        assert np.array_equal(getattr(one, name), getattr(three, name)), name
+    assert_same_values(one, three)
+    assert_same_values(*(h.even(spacings=1.0).selecting(0.7, 12.0) for h in (one, three)))
     for chosen in THRESHOLDS + [{**t, "relaxed": True, "round_limbs": True} for t in THRESHOLDS]:
         a, b = one.extract(**chosen), three.extract(**chosen)
         for name in (

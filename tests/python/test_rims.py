@@ -46,7 +46,7 @@ def mean_turn(places, edges):
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rims_are_no_saws(sampled, name, seed):
     _, _, hierarchy = sampled(name, 8000, seed)
-    level = hierarchy.extract(even=True, relaxed=True, **CLEAN)
+    level = hierarchy.even(**CLEAN).extract(relaxed=True)
     facets = hierarchy.extract(**CLEAN)
     assert mean_turn(facets.vertices, rim_edges(facets)) > 45
     assert mean_turn(level.vertices, rim_edges(level)) < TURN[name]
@@ -55,7 +55,7 @@ def test_rims_are_no_saws(sampled, name, seed):
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rim_of_an_oblate_has_its_length(sampled, seed):
     _, _, hierarchy = sampled("oblate", 8000, seed)
-    level = hierarchy.extract(even=True, relaxed=True, **CLEAN)
+    level = hierarchy.even(**CLEAN).extract(relaxed=True)
     a, b = rim_edges(level).T
     length = np.linalg.norm(level.vertices[a] - level.vertices[b], axis=1).sum()
     assert 0.98 < length / OBLATE_RIM < 1.05
@@ -63,7 +63,7 @@ def test_rim_of_an_oblate_has_its_length(sampled, seed):
 
 def test_balls_of_moved_vertices_are_empty(sampled):
     shape, _, hierarchy = sampled("box", 2000)
-    level = hierarchy.extract(even=True, relaxed=True, **CLEAN)
+    level = hierarchy.even(**CLEAN).extract(relaxed=True)
     points = shape.sample(2000, 0)
     nearest = np.linalg.norm(level.vertices[:, None] - points, axis=2).min(axis=1)
     assert level.radius == pytest.approx(nearest, rel=1e-9)

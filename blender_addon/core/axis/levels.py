@@ -72,10 +72,14 @@ def extract_level(
     OutOfMemoryError, Cancelled
     """
     wanted = _wanted(settings)
-    hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.6), not relaxed)
+    hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.4), not relaxed)
+    shown = hierarchy
+    if relaxed and settings.form is not Form.CURVE and settings.mesh is Mesh.EVEN:
+        shown = samples.levels.even(hierarchy, settings, progress and progress.part(0.8))
+        CACHE.resize(samples.key, samples.bytes)
     with native.own_errors():
-        level = hierarchy.extract(**wanted, relaxed=relaxed, progress=progress and progress.part())
-    ranges, gap = samples.levels.kept("sliders", hierarchy, _of_sliders)
+        level = shown.extract(**wanted, relaxed=relaxed, progress=progress and progress.part())
+    ranges, gap = samples.levels.kept("sliders", shown, _of_sliders)
     axis = MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
@@ -154,7 +158,6 @@ def _wanted(settings: Settings) -> dict[str, Any]:
         return {"sheet": math.inf, "limb": limb, "crisp": settings.crisp}
     return {
         "crisp": settings.crisp,
-        "even": settings.mesh is Mesh.EVEN,
         "spacings": 1.0,
         "sheet": settings.simplify / 100,
         "erosion": settings.erode / 100,

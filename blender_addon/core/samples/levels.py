@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 from ..machine import native
+from ..settings import Form, Mesh, Settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -13,7 +15,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..settings import Settings
     from .solid_faces import SolidFaces
 
 
@@ -22,20 +23,19 @@ class Levels:
 
     def __init__(self) -> None:
         self._newest: tuple[tuple[Any, ...], Any] | None = None
-        self._of_newest: tuple[Any, dict[str, Any]] = None, {}
+        self._even: tuple[tuple[Any, ...], Any] | None = None
+        self._selecting: tuple[tuple[Any, ...], Any] | None = None
+        self._found: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
 
     @property
     def bytes(self) -> int:
-        """The memory that the hierarchy takes."""
-        newest = self._newest
-        return 0 if newest is None else int(newest[1].bytes)
+        """The memory that the hierarchies take."""
+        kept = (self._newest, self._even, self._selecting)
+        return sum(int(one[1].bytes) for one in kept if one is not None)
 
     def kept(self, name: str, hierarchy: Any, make: Callable[[Any], Any]) -> Any:
-        """Return what `make` makes of a hierarchy, made once as long as the hierarchy is the newest one."""
-        of, found = self._of_newest
-        if of is not hierarchy:
-            found = {}
-            self._of_newest = hierarchy, found
+        """Return what `make` makes of a hierarchy, made once as long as the hierarchy lives."""
+        found = self._found.setdefault(hierarchy, {})
         if name not in found:
             found[name] = make(hierarchy)
         return found[name]
@@ -58,7 +58,8 @@ class Levels:
         ----------
         analysis : _medial.MedialAnalysis
         settings : Settings
-            Only `theta`, `rho`, `rule` and `criteria` matter, and for crisp places `sharp_angle` and `smooth`.
+            Only `theta`, `rho`, `rule` and `criteria` matter, and for crisp places `sharp_angle` and `smooth`. Even
+            meshes are made at the usual thresholds if those are higher.
         progress : _medial.Progress or None
         bodies : int, optional
             The number of bodies of the solid, always the same one; crumbs of the sampling are left out until no more
@@ -75,17 +76,18 @@ class Levels:
         OutOfMemoryError, Cancelled
         """
         faces = () if solid is None else solid.options(settings)
-        thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria, *faces)
+        theta, rho = (settings.theta, settings.rho) if places else _thresholds_of_mesh(settings)
+        thresholds = (theta, rho, settings.rule, settings.criteria, *faces)
         places = places and solid is not None
         newest = self._newest
         if newest is not None and newest[0] == thresholds and (len(newest[1].place) or not places):
             return newest[1]
-        self._of_newest = None, {}
+        self._even = self._selecting = None
         newest = self._newest = None  # frees its memory before another hierarchy takes as much
         with native.own_errors() as module:
             hierarchy = analysis.hierarchy(
-                settings.theta,
-                settings.rho,
+                theta,
+                rho,
                 getattr(module.Rule, settings.rule.name),
                 getattr(module.Criteria, settings.criteria.name),
                 module.Side.INNER,
@@ -97,3 +99,45 @@ class Levels:
             )
         self._newest = thresholds, hierarchy
         return hierarchy
+
+    def even(self, hierarchy: Any, settings: Settings, progress: Any | None) -> Any:
+        """Return the `_medial.Hierarchy` of the even mesh of a hierarchy, at the thresholds of the settings.
+
+        The mesh is made again for limbs below the usual ones; all else is a level of the mesh.
+
+        Raises
+        ------
+        OutOfMemoryError, Cancelled
+        """
+        limb = min(settings.limb, Settings().limb)
+        level = {"limb": limb / 100, "crisp": settings.crisp}
+        with native.own_errors():
+            even = _kept(
+                self._even,
+                (hierarchy, *level.values()),
+                lambda: hierarchy.even(**level, spacings=1.0, round_limbs=True, progress=progress),
+            )
+            self._even = even
+            wanted = settings.theta, settings.rho
+            if wanted == _thresholds_of_mesh(settings):
+                return even[1]
+            selecting = _kept(
+                self._selecting, (even[1], *wanted), lambda: even[1].selecting(*wanted)
+            )
+            self._selecting = selecting
+            return selecting[1]
+
+
+def _kept(
+    kept: tuple[tuple[Any, ...], Any] | None, key: tuple[Any, ...], make: Callable[[], Any]
+) -> tuple[tuple[Any, ...], Any]:
+    """Return what is kept, if it has this key, or else what `make` makes."""
+    return kept if kept is not None and kept[0] == key else (key, make())
+
+
+def _thresholds_of_mesh(settings: Settings) -> tuple[float, float]:
+    """Return Theta and Rho for the facets of which an even mesh is made; what higher ones select is part of it."""
+    if settings.form_of_side is not Form.CLEAN or settings.mesh is not Mesh.EVEN:
+        return settings.theta, settings.rho
+    usual = Settings()
+    return min(settings.theta, usual.theta), min(settings.rho, usual.rho)

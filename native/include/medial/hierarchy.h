@@ -38,8 +38,13 @@ struct LevelOptions {
   // Vertices of even meshes are where balls touch the faces, if the hierarchy has any, and so are
   // those of facets that are not relaxed, if it has crisp places. Curves end in the tips of cones.
   bool crisp = false;
-  // Sheets are even triangles in place of the facets of the Voronoi diagram.
-  bool even = false;
+};
+
+// These options choose the level that gets an even mesh, as in LevelOptions. Its vertices are where
+// balls touch the faces if `crisp`.
+struct EvenOptions {
+  double spacings = 0, limb = 0.04;
+  bool round_limbs = false, crisp = false;
 };
 
 // A level is a mesh of polygons, edges without a facet, and single vertices.
@@ -73,7 +78,7 @@ class Hierarchy {
  public:
   struct Parts;
   // Only the library constructs one; see MedialAnalysis::hierarchy.
-  explicit Hierarchy(std::unique_ptr<const Parts> parts);
+  explicit Hierarchy(std::shared_ptr<const Parts> parts);
   ~Hierarchy();
   Hierarchy(Hierarchy&&) noexcept;
   Hierarchy& operator=(Hierarchy&&) noexcept;
@@ -83,13 +88,22 @@ class Hierarchy {
   size_t bytes() const;        // memory that it holds
   // Throws InvalidInputError for thresholds below 0, Cancelled.
   Level extract(const LevelOptions& options, Progress* progress = nullptr) const;
+  // Gives a level a mesh of its own, of even triangles in place of the facets of the Voronoi
+  // diagram, and returns the hierarchy of this mesh. Its facets are the triangles, in the order of
+  // the facets for which they stand, and its levels without thresholds are all of the mesh. Throws
+  // InvalidInputError for thresholds below 0, and for a hierarchy that is one of an even mesh.
+  Hierarchy even(const EvenOptions& options, Progress* progress = nullptr) const;
+  // Returns the hierarchy of the same even mesh at other thresholds of MEDIAL, where these are
+  // higher; what lower ones would select is not in the mesh. Throws InvalidInputError for
+  // thresholds out of range, and for a hierarchy that is not one of an even mesh.
+  Hierarchy selecting(double theta, double rho, Progress* progress = nullptr) const;
   const Timings& timings() const;
 
   // Returns the results of the collapse, for the library itself.
   const Parts& parts() const { return *parts_; }
 
  private:
-  std::unique_ptr<const Parts> parts_;
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace medial

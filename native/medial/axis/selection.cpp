@@ -4,21 +4,6 @@
 namespace medial {
 namespace {
 
-void check(const Extraction& x) {
-  if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
-    throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
-                            std::to_string(x.thresholds.theta) + "; the paper uses pi/8.");
-  }
-  if (!(x.thresholds.rho >= 0)) {
-    throw InvalidInputError("Expected rho of 0 or more, found " + std::to_string(x.thresholds.rho) +
-                            "; the paper uses 8.");
-  }
-  if (x.side == Side::crossing) {
-    throw InvalidInputError(
-        "Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
-  }
-}
-
 // Combines the values at the two ends of an edge by a rule; only ends that are tried count. Returns
 // 0, which passes no condition, if the rule lacks an end.
 double tried(double larger, double smaller, bool try_larger, bool try_smaller, Rule rule) {
@@ -40,9 +25,24 @@ double tried_rho(const Significance& s, int64_t edge, Rule rule) {
 
 }  // namespace
 
+void require_in_range(const Thresholds& thresholds) {
+  if (!(thresholds.theta >= 0 && thresholds.theta <= std::numbers::pi / 2)) {
+    throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
+                            std::to_string(thresholds.theta) + "; the paper uses pi/8.");
+  }
+  if (!(thresholds.rho >= 0)) {
+    throw InvalidInputError("Expected rho of 0 or more, found " + std::to_string(thresholds.rho) +
+                            "; the paper uses 8.");
+  }
+}
+
 Selection::Selection(const Extraction& wanted, const Facets& facets)
     : wanted_(wanted), facets_(facets) {
-  check(wanted);
+  require_in_range(wanted.thresholds);
+  if (wanted.side == Side::crossing) {
+    throw InvalidInputError(
+        "Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
+  }
   sine_ = largest_sine(wanted.thresholds.theta);
 }
 

@@ -54,6 +54,9 @@ class Selection {
   double sine_ = 0;  // the largest sine that fails the Angle condition
 };
 
+// Throws InvalidInputError for thresholds out of range.
+void require_in_range(const Thresholds& thresholds);
+
 // Returns the positions in `edges` of those whose facets are selected, ascending.
 std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,
                               const Run& run);

@@ -11,7 +11,7 @@
 namespace medial {
 
 // Values of EvenMesh::held.
-inline constexpr uint8_t kFree = 0, kOnLine = 1, kInCorner = 2;
+inline constexpr uint8_t kFree = 0, kOnLine = 1, kInCorner = 2, kStill = 3;
 
 // A mesh, and what belongs to its vertices and triangles.
 struct EvenMesh {
@@ -20,7 +20,7 @@ struct EvenMesh {
   std::vector<double> target;   // (v) wanted length of the edges there
   std::vector<int32_t> origin;  // (v) the vertex of the input that it stands for
   // (v) whether the vertex is held on a line, along which alone it moves and is collapsed, or in a
-  // corner of lines, which is a node
+  // corner of lines, which is a node, or belongs to what stays as it is
   std::vector<uint8_t> held;
   std::vector<int32_t> source;  // (t) the facet of the input that it stands for
   // (t) unit normal, by which turns are judged: of the facet as long as the triangle has none that

@@ -28,7 +28,7 @@ class Remesher {
   void split() {
     for (const auto& [longness, a, b] : edges_beyond(-1)) {
       throw_if_cancelled(run_.progress);
-      split(a, b);
+      if (!is_still(a, b)) split(a, b);
     }
   }
 
@@ -46,7 +46,7 @@ class Remesher {
 
   void flip() {
     for (const auto& [a, b] : mesh_.edges()) {
-      if (is_skew(a, b) && mesh_.can_flip(a, b)) flip_if_flat(a, b);
+      if (!is_still(a, b) && is_skew(a, b) && mesh_.can_flip(a, b)) flip_if_flat(a, b);
     }
   }
 
@@ -75,6 +75,8 @@ class Remesher {
   double edge_length(int32_t a, int32_t b) const {
     return distance(e_.position[a], e_.position[b]);
   }
+  bool is_still(int32_t a, int32_t b) const { return e_.held[a] == kStill && e_.held[b] == kStill; }
+  bool is_on_line(int32_t v) const { return e_.held[v] == kOnLine || e_.held[v] == kInCorner; }
   double target(int32_t a, int32_t b) const { return 0.5 * (e_.target[a] + e_.target[b]); }
 
   // Returns the edges that are too short (sign 1), shortest first, or too long (-1), longest first.
@@ -89,14 +91,14 @@ class Remesher {
   }
 
   void split(int32_t a, int32_t b) {
-    const bool on_line = e_.held[a] && e_.held[b] && !mesh_.is_inside_sheet(a, b);
+    const bool on_line = is_on_line(a) && is_on_line(b) && !mesh_.is_inside_sheet(a, b);
     const std::vector<int32_t> halves = mesh_.triangles_at(a, b);
     const Vec3 middle = 0.5 * (e_.position[a] + e_.position[b]);
     mesh_.split(a, b, split_off_);
     e_.position.push_back(on_line ? options_.onto_line(middle) : middle);
     e_.target.push_back(target(a, b));
     e_.origin.push_back(e_.origin[a]);
-    e_.held.push_back(on_line);
+    e_.held.push_back(on_line ? kOnLine : kFree);
     for (const int32_t t : halves) {
       e_.source.push_back(e_.source[t]);
       e_.normal.push_back(e_.normal[t]);
@@ -126,8 +128,8 @@ class Remesher {
 
   // A held line keeps its bends, and what else is held stays.
   bool keeps_line(int32_t from, int32_t to) const {
-    if (!e_.held[from]) return true;
-    if (mesh_.stratum(from) != Stratum::curve) return false;
+    if (e_.held[from] == kFree) return true;
+    if (e_.held[from] == kStill || mesh_.stratum(from) != Stratum::curve) return false;
     const Edge along = mesh_.along_curve(from);
     const int32_t other = along[0] == to ? along[1] : along[0];
     const Vec3 way = normalized(e_.position[to] - e_.position[other]);
@@ -157,6 +159,7 @@ class Remesher {
   }
 
   Vec3 wanted_place(int32_t v, double share) const {
+    if (e_.held[v] == kStill) return e_.position[v];
     if (e_.held[v] && mesh_.stratum(v) != Stratum::curve) return e_.position[v];
     if (mesh_.stratum(v) == Stratum::sheet) return centre_of_sheet(v);
     if (mesh_.stratum(v) == Stratum::node) return centre_of_curves(v);

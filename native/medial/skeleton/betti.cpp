@@ -79,8 +79,11 @@ Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, co
 
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Alive& alive,
                const Run& run) {
+  return betti_of(complex, count_cavities(complex, outside, alive, run), alive, run);
+}
+
+Betti betti_of(const InnerComplex& complex, int64_t cavities, const Alive& alive, const Run& run) {
   const int64_t pieces = count_pieces(complex, alive, run);
-  const int64_t cavities = count_cavities(complex, outside, alive, run);
   const int64_t euler = count(alive.vertex) - count(alive.edge) + count(alive.facet);
   return {pieces, pieces + cavities - euler, cavities};
 }

@@ -25,6 +25,9 @@ struct Alive {
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Alive& alive,
                const Run& run);
 
+// Does the same where the number of cavities is known, which no collapse changes.
+Betti betti_of(const InnerComplex& complex, int64_t cavities, const Alive& alive, const Run& run);
+
 // Returns the Betti numbers of the complex itself.
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Run& run);
 

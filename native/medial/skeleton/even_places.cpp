@@ -115,6 +115,11 @@ Touch EvenPlaces::ball_of_walls(int32_t v) const {
   return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, e_.position[v], most, true);
 }
 
+void EvenPlaces::start_from(std::span<const Placing> placing, std::span<const double> radius) {
+  placing_.assign(placing.begin(), placing.end());
+  radius_.assign(radius.begin(), radius.end());
+}
+
 void EvenPlaces::place() {
   std::vector<int32_t> all;
   for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
@@ -146,7 +151,7 @@ void EvenPlaces::place(std::span<const int32_t> vertices) {
       kFew);
   for (const int32_t v : vertices) join_neighbour(v);
   for (const int32_t v : vertices) {
-    if (!e_.mesh.has_triangles(v)) continue;
+    if (!e_.mesh.has_triangles(v) || e_.held[v] == kStill) continue;
     if (e_.held[v] != kFree) {
       placing_[v] = e_.held[v] == kInCorner ? Placing::corner : Placing::crease;
       continue;

@@ -15,6 +15,8 @@ class EvenPlaces {
   EvenPlaces(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
              std::span<const Edge> wires, const Run& run);
 
+  // Takes over what is known of vertices that stay as they are.
+  void start_from(std::span<const Placing> placing, std::span<const double> radius);
   // Places all vertices of triangles. What turns a triangle over is refused.
   void place();
   // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and

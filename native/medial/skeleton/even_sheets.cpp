@@ -6,6 +6,7 @@
 #include "remesh/remesh.h"
 #include "remesh/target_length.h"
 #include "skeleton/even_creases.h"
+#include "skeleton/even_level.h"
 #include "skeleton/even_places.h"
 #include "skeleton/simplices.h"
 
@@ -21,7 +22,6 @@ constexpr double kMerged = 0.25;         // that Voronoi vertices of one place a
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
-constexpr double kChord = 1e-3;   // of the diagonal that a chord misses a curved sheet by, at most
 constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
 constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
 
@@ -34,7 +34,7 @@ class EvenSheets {
         run_{run.threads, nullptr, nullptr},
         progress_(run.progress) {}
 
-  void make() {
+  EvenVertices make() {
     for (size_t f = 0; f < level_.facet_of.size(); ++f) {
       generators_.push_back(h_.complex.generators[level_.facet_of[f]]);
     }
@@ -52,13 +52,10 @@ class EvenSheets {
       options.moves_curves = round < kMovingRounds;
       one_round(even, options, 0.4 * round / kRounds);
     }
-    if (samples) {
-      EvenPlaces places(even, *samples, generators_, level_.wires, run_);
-      settle(even, places, options);
-      write(even, &places);
-    } else {
-      write(even, nullptr);
-    }
+    if (!samples) return write_even(even, {}, {}, h_, level_, run_);
+    EvenPlaces places(even, *samples, generators_, level_.wires, run_);
+    settle(even, places, options);
+    return write_even(even, places.placing(), places.radius(), h_, level_, run_);
   }
 
  private:
@@ -87,7 +84,7 @@ class EvenSheets {
     std::vector<Vec3> normal;
     for (const int32_t f : simplices.source) {
       const auto& [p, q] = generators_[f];
-      normal.push_back(normalized(h_.samples[q] - h_.samples[p]));
+      normal.push_back(normalized((*h_.samples)[q] - (*h_.samples)[p]));
     }
     std::vector<uint8_t> is_node(all, 0);
     for (const int32_t v : level_.points) is_node[v] = 1;
@@ -119,7 +116,7 @@ class EvenSheets {
       double sum = 0;
       even.mesh.for_triangles(static_cast<int32_t>(v), [&](int32_t t) {
         const int32_t f = even.source[t];
-        for (const int32_t s : generators_[f]) hole_[v] = std::max(hole_[v], h_.spacing[s]);
+        for (const int32_t s : generators_[f]) hole_[v] = std::max(hole_[v], (*h_.spacing)[s]);
         sum += area[f];
         ++count;
       });
@@ -177,8 +174,6 @@ class EvenSheets {
     spread_least(mesh, even.position, kSlope, even.target);
   }
 
-  void write(const EvenMesh& even, const EvenPlaces* places);
-
   Level& level_;
   const Hierarchy::Parts& h_;
   const SamplesOnFaces* samples_;  // null if no faces give places
@@ -188,81 +183,12 @@ class EvenSheets {
   std::vector<double> hole_, radius_, facet_area_;  // per vertex at the start
 };
 
-template <typename T>
-Column<T> rows_of(const Column<T>& values, std::span<const int32_t> rows) {
-  Column<T> found;
-  found.reserve(rows.size());
-  for (const int32_t row : rows) found.push_back(values[row]);
-  return found;
-}
-
-// Writes triangles in the order of their facets, and vertices in the order in which triangles,
-// wires and points first use them.
-void EvenSheets::write(const EvenMesh& even, const EvenPlaces* places) {
-  std::vector<int32_t> rows;
-  for (int32_t t = 0; t < even.mesh.triangles(); ++t) {
-    if (!even.mesh.is_gone(t)) rows.push_back(t);
-  }
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](int32_t a, int32_t b) { return even.source[a] < even.source[b]; });
-  std::vector<int32_t> number(even.position.size(), -1), vertices, source;
-  const auto renumbered = [&](int32_t v) {
-    if (number[v] < 0) {
-      number[v] = static_cast<int32_t>(vertices.size());
-      vertices.push_back(v);
-    }
-    return number[v];
-  };
-  level_.face_offsets = {0};
-  level_.face_vertices.clear();
-  for (const int32_t t : rows) {
-    Triangle corners = even.mesh.triangle(t);
-    const auto& [p, q] = generators_[even.source[t]];
-    const Vec3 across = h_.samples[q] - h_.samples[p];
-    if (dot(even.normal[t], across) < 0) std::swap(corners[1], corners[2]);
-    for (int32_t& v : corners) v = renumbered(v);
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    for (const int32_t v : corners) level_.face_vertices.push_back(v);
-    level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
-    source.push_back(even.source[t]);
-  }
-  for (Edge& wire : level_.wires) {
-    for (int32_t& v : wire) v = renumbered(v);
-  }
-  for (int32_t& v : level_.points) v = renumbered(v);
-  level_.generators = rows_of(level_.generators, source);
-  level_.facet_of = rows_of(level_.facet_of, source);
-  level_.theta = rows_of(level_.theta, source);
-  level_.rho = rows_of(level_.rho, source);
-  level_.sheet = rows_of(level_.sheet, source);
-  level_.erosion = rows_of(level_.erosion, source);
-  std::vector<int32_t> origin;
-  for (const int32_t v : vertices) origin.push_back(even.origin[v]);
-  level_.vertex_of = rows_of(level_.vertex_of, origin);
-  level_.exact = rows_of(level_.exact, origin);
-  level_.exact_radius = rows_of(level_.exact_radius, origin);
-  const size_t count = vertices.size();
-  level_.vertices.resize(count);
-  level_.radius.resize(count);
-  level_.place.assign(count, Placing::voronoi);
-  parallel_for(static_cast<int64_t>(count), run_, [&](int64_t i) {
-    const int32_t v = vertices[i];
-    level_.vertices[i] = even.position[v];
-    if (places) level_.place[i] = places->placing()[v];
-    if (level_.place[i] >= Placing::touching) {
-      level_.radius[i] = places->radius()[v];
-    } else if (level_.vertices[i] == level_.exact[i]) {
-      level_.radius[i] = level_.exact_radius[i];
-    } else {
-      level_.radius[i] = h_.samples.nearest(even.position[v]).distance;
-    }
-  });
-}
-
 }  // namespace
 
-void make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp, const Run& run) {
-  if (!level.facet_of.empty()) EvenSheets(level, hierarchy, crisp, run).make();
+EvenVertices make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp,
+                       const Run& run) {
+  if (level.facet_of.empty()) return {};
+  return EvenSheets(level, hierarchy, crisp, run).make();
 }
 
 }  // namespace medial

@@ -3,13 +3,13 @@
 // the Voronoi diagram, which are as many as the samples, become even triangles.
 #pragma once
 
-#include "skeleton/level.h"
+#include "skeleton/even_level.h"
 
 namespace medial {
 
 // Replaces the polygons of a level by even triangles. Its vertices are at the Voronoi diagram, and
 // the polygons are in the order of their generators; so are the triangles. If `crisp`, vertices go
 // to where balls touch the faces, if there are any.
-void make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp, const Run& run);
+EvenVertices make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp, const Run& run);
 
 }  // namespace medial

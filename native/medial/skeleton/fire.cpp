@@ -76,8 +76,7 @@ constexpr int kLookEvery = 1 << 13;  // facets between two checks for cancellati
 
 class Fire {
  public:
-  Fire(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
-       const Run& run)
+  Fire(const InnerComplex& complex, const RadiusInFacet& radius, Collapse& collapse, const Run& run)
       : complex_(complex),
         collapse_(collapse),
         run_{run.threads, nullptr, run.arena},
@@ -89,7 +88,7 @@ class Fire {
     light_edges();
     collapse_.facets_at = array<Incident>(0, run_);
     if (run.arena) run.arena->release();
-    light_facets(points);
+    light_facets(radius);
   }
 
   Burning run() && {
@@ -114,7 +113,7 @@ class Fire {
     });
   }
 
-  void light_facets(std::span<const Vec3> points) {
+  void light_facets(const RadiusInFacet& radius) {
     const auto lit =
         parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t id, auto& out, int) {
           const auto f = static_cast<int32_t>(id);
@@ -125,7 +124,7 @@ class Fire {
           facet.first = complex_.offsets[f];
           facet.corners = static_cast<int32_t>(ring.size());
           facet.centroid = centroid(complex_, f);
-          facet.radius = distance(facet.centroid, points[complex_.generators[f][0]]);
+          facet.radius = radius(f, facet.centroid);
           for (size_t i = 0; i < ring.size(); ++i) {
             if (edge_[ring[i].edge].facets.count() == 1) heat(facet, side(ring, i));
           }
@@ -285,9 +284,15 @@ class Fire {
 
 }  // namespace
 
-Burning burn(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
+RadiusInFacet radius_by(const InnerComplex& complex, std::span<const Vec3> points) {
+  return [&complex, points](int32_t facet, const Vec3& place) {
+    return distance(place, points[complex.generators[facet][0]]);
+  };
+}
+
+Burning burn(const InnerComplex& complex, const RadiusInFacet& radius, Collapse& collapse,
              const Run& run) {
-  return Fire(complex, points, collapse, run).run();
+  return Fire(complex, radius, collapse, run).run();
 }
 
 }  // namespace medial

@@ -6,6 +6,8 @@
 // there.
 #pragma once
 
+#include <functional>
+
 #include "skeleton/collapse.h"
 
 namespace medial {
@@ -24,9 +26,15 @@ struct Burning {
   Array<float> erosion;  // as shares of the diagonal
 };
 
+// Returns the radius of the ball at a place in a facet.
+using RadiusInFacet = std::function<double(int32_t facet, const Vec3& place)>;
+
+// Returns the radii of the balls that touch `points`, the samples; both must outlive the result.
+RadiusInFacet radius_by(const InnerComplex& complex, std::span<const Vec3> points);
+
 // Removes all facets that the fire can reach; the rest are closed sheets. Empties
 // `collapse.facets_at`.
-Burning burn(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
+Burning burn(const InnerComplex& complex, const RadiusInFacet& radius, Collapse& collapse,
              const Run& run);
 
 }  // namespace medial

@@ -5,7 +5,7 @@
 #include "base/raise.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
-#include "skeleton/even_sheets.h"
+#include "skeleton/even_rims.h"
 #include "skeleton/relax.h"
 #include "skeleton/round_limbs.h"
 #include "skeleton/teeth.h"
@@ -84,8 +84,10 @@ class Drawer {
           if (alive_.facet[f] && drawn_corners(f) >= 3) out.push_back(f);
         });
     int32_t rows = 0;
-    for (const int32_t row : h_.row) rows = std::max(rows, row + 1);
-    const auto row = [&](int64_t i, int end) { return h_.row[complex_.generators[found[i]][end]]; };
+    for (const int32_t row : *h_.row) rows = std::max(rows, row + 1);
+    const auto row = [&](int64_t i, int end) {
+      return (*h_.row)[complex_.generators[found[i]][end]];
+    };
     auto facets = array<int32_t>(found.size(), run_);
     bucket_sort(
         static_cast<int64_t>(found.size()), static_cast<size_t>(rows), run_,
@@ -109,7 +111,7 @@ class Drawer {
     level_.facet_of.resize(facets.size());
     parallel_for(static_cast<int64_t>(facets.size()), run_, [&](int64_t i) {
       const auto& [p, q] = complex_.generators[facets[i]];
-      level_.generators[i] = {h_.row[p], h_.row[q]};
+      level_.generators[i] = {(*h_.row)[p], (*h_.row)[q]};
       level_.facet_of[i] = facets[i];
       for_drawn_edges(facets[i], [&](int32_t, int32_t edge) {
         if (shared_load(used_[edge]) < 2) shared_add(used_[edge], uint8_t{1});
@@ -234,12 +236,21 @@ class Drawer {
     level_.exact = level_.vertices;
     level_.exact_radius = level_.radius;
     level_.place.assign(level_.vertex_of.size(), Placing::voronoi);
+    if (h_.even) stand_for_others();
     if (!crisp_) return;
     parallel_for(static_cast<int64_t>(level_.vertex_of.size()), run_, [&](int64_t v) {
       level_.place[v] = h_.crisp.place[level_.vertex_of[v]];
       level_.vertices[v] = h_.crisp.position[level_.vertex_of[v]];
       level_.radius[v] = h_.crisp.radius[level_.vertex_of[v]];
     });
+  }
+
+  // Vertices of an even mesh stand for those of the complex that it was made of.
+  void stand_for_others() {
+    for (size_t v = 0; v < level_.vertex_of.size(); ++v) {
+      level_.exact[v] = h_.even->exact[level_.vertex_of[v]];
+      level_.exact_radius[v] = h_.even->exact_radius[level_.vertex_of[v]];
+    }
   }
 
   void read_values() {
@@ -317,15 +328,16 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
   Alive alive = alive_at(h, options, quiet);
-  if (options.relaxed && options.spike > 0) trim_teeth(h.complex, alive, quiet);
+  if (options.relaxed && options.spike > 0 && !h.even) trim_teeth(h.complex, alive, quiet);
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
-  const bool crisp = options.crisp && !options.even && !options.relaxed && !h.crisp.place.empty();
+  const bool crisp = h.even || (options.crisp && !options.relaxed && !h.crisp.place.empty());
   Level level = Drawer(h, alive, crisp, quiet).draw();
   throw_if_cancelled(run.progress);
-  level.betti = betti_of(h.complex, h.outside, alive, quiet);
-  if (options.even) make_even(level, h, options.crisp, run);
+  level.betti = h.even ? betti_of(h.complex, h.betti[2], alive, quiet)
+                       : betti_of(h.complex, h.outside, alive, quiet);
+  if (h.even) smooth_new_rims(level, h, alive, run);
   if (options.relaxed) relax(level, h, options.crisp, run);
   advance(run.progress, 1);
   return level;

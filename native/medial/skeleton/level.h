@@ -12,8 +12,24 @@
 #include "skeleton/betti.h"
 #include "skeleton/crisp.h"
 #include "skeleton/spikes.h"
+#include "skeleton/weight.h"
 
 namespace medial {
+
+// What the remesher knows of the vertices of an even mesh, in their order in the level.
+struct EvenVertices {
+  std::vector<double> target;   // as in EvenMesh
+  std::vector<uint8_t> held;    // likewise
+  std::vector<uint8_t> is_end;  // as SheetComplex::stays
+};
+
+// What the hierarchy of an even mesh has beyond others.
+struct EvenBase {
+  EvenVertices vertices;
+  std::vector<Vec3> exact;           // (v) the place that the vertex stands for, as in Level
+  std::vector<double> exact_radius;  // (v)
+  Array<float> limb;                 // per edge: value that it had as a wire; 0 for other edges
+};
 
 // Holds the results from which the levels are made.
 struct Hierarchy::Parts {
@@ -26,15 +42,18 @@ struct Hierarchy::Parts {
   mutable std::once_flag spikes_known;
   Array<float> limb;                               // per vertex
   Array<double> sine, rho;                         // per facet, as in Significance
-  std::unique_ptr<const Faces> faces;              // null if there are none
-  std::unique_ptr<const SamplesOnFaces> on_faces;  // likewise
+  Array<Chosen> chosen;                            // per facet
+  Thresholds thresholds;                           // those of `chosen`
+  std::shared_ptr<const Faces> faces;              // null if there are none
+  std::shared_ptr<const SamplesOnFaces> on_faces;  // likewise
+  std::shared_ptr<const EvenBase> even;            // null unless the facets are an even mesh
   CrispPlaces crisp;         // empty without faces, or where they were not wanted
   Array<uint8_t> on_crease;  // per vertex: whether a rim ends there; empty without faces
-  PointTree samples;
-  std::vector<int32_t> row;     // of each sample in the input
-  std::vector<double> spacing;  // of each sample: the largest hole beside it
-  Array<int32_t> outside;       // result of outside_components
-  Betti betti = {};             // of the complex
+  std::shared_ptr<const PointTree> samples;
+  std::shared_ptr<const std::vector<int32_t>> row;     // of each sample in the input
+  std::shared_ptr<const std::vector<double>> spacing;  // of each sample: the largest hole beside it
+  Array<int32_t> outside;                              // result of outside_components
+  Betti betti = {};                                    // of the complex
   int threads = 1;
   Timings timings;
 

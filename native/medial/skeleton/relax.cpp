@@ -184,7 +184,7 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
   begin_stage(run.progress, "Curves", 0.6, 1);
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);
-  auto curves = fit_curves(chains, level.vertices, h.samples, run);
+  auto curves = fit_curves(chains, level.vertices, *h.samples, run);
   if (to_faces && h.faces) {
     const std::vector<Vec3> places = tips_of(*h.faces);
     const Tips tips(places, *h.faces);

@@ -110,7 +110,7 @@ void shed_flat_limbs(const Hierarchy::Parts& h, const LevelOptions& options, Ali
   std::vector<Vec3> places;
   for (const int32_t v : forest.vertices) places.push_back(h.complex.position[v]);
   const auto chains = chains_of(forest.wires, forest.is_root);
-  const auto curves = fit_curves(chains, places, h.samples, run);
+  const auto curves = fit_curves(chains, places, *h.samples, run);
   for (const int32_t c : Shedder(forest, chains, curves).shed()) {
     for (const int32_t wire : chains[c].wires) {
       alive.edge[forest.edges[wire]] = 0;

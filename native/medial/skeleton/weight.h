@@ -8,39 +8,53 @@
 
 namespace medial {
 
+// Returns the larger one of theta / theta0 and rho / rho0, or only the one that the criteria use.
+inline double share_of_thresholds(double sine, double rho, const Thresholds& t) {
+  const auto part = [&](double value, double threshold, Criteria without) {
+    if (t.criteria == without || !(value > 0)) return 0.0;
+    return threshold > 0 ? value / threshold : HUGE_VAL;
+  };
+  return std::max(part(theta_of(sine), t.theta, Criteria::ratio),
+                  part(rho, t.rho, Criteria::angle));
+}
+
+// How a facet was chosen: not at all, by the thresholds, or by the faces, which are certain.
+enum class Chosen : uint8_t { no, by_thresholds, by_faces };
+
+// The facets are those of a complex, by InnerComplex::dual.
 class FacetWeights {
  public:
+  virtual ~FacetWeights() = default;
+  virtual bool selected(int32_t dual) const = 0;
+  // Returns whether the faces say that the facet is there: its samples lie on the two sides of a
+  // sharp convex edge, or are partners on opposite walls.
+  virtual bool is_certain(int32_t dual) const = 0;
+  virtual double operator()(int32_t dual) const = 0;
+};
+
+// The weights of Delaunay edges.
+class EdgeWeights : public FacetWeights {
+ public:
   // The arguments must outlive this object. There is a mark per Delaunay edge, or none at all.
-  FacetWeights(const Facets& facets, const Thresholds& thresholds,
-               std::span<const EdgeMark> marks = {})
+  EdgeWeights(const Facets& facets, const Thresholds& thresholds,
+              std::span<const EdgeMark> marks = {})
       : facets_(facets), t_(thresholds), selection_({thresholds}, facets), marks_(marks) {}
 
-  // Returns whether a Delaunay edge is selected.
-  bool selected(int32_t edge) const {
+  bool selected(int32_t edge) const override {
     if (!marks_.empty() && marks_[edge] != EdgeMark::none) return is_certain(edge);
     std::vector<int32_t> none;  // the side `both` needs no ring
     return selection_.wants(edge, none);
   }
-  // Returns whether the samples of a Delaunay edge lie on the two sides of a sharp convex edge, or
-  // are partners on opposite walls.
-  bool is_certain(int32_t edge) const {
+  bool is_certain(int32_t edge) const override {
     return !marks_.empty() &&
            (marks_[edge] == EdgeMark::into_crease || marks_[edge] == EdgeMark::between_partners);
   }
-  // Returns the larger one of theta / theta0 and rho / rho0, or only the one that the criteria use.
-  double operator()(int32_t edge) const {
-    const double theta =
-        part(theta_of(facets_.significance.sines(t_.rule)[edge]), t_.theta, Criteria::ratio);
-    return std::max(theta,
-                    part(facets_.significance.ratios(t_.rule)[edge], t_.rho, Criteria::angle));
+  double operator()(int32_t edge) const override {
+    return share_of_thresholds(facets_.significance.sines(t_.rule)[edge],
+                               facets_.significance.ratios(t_.rule)[edge], t_);
   }
 
  private:
-  double part(double value, double threshold, Criteria without) const {
-    if (t_.criteria == without || !(value > 0)) return 0;
-    return threshold > 0 ? value / threshold : HUGE_VAL;
-  }
-
   const Facets& facets_;
   Thresholds t_;
   Selection selection_;
