@@ -34,57 +34,73 @@ Places places_of(const EvenMesh& even, const Triangle& t) {
   return {even.position[t[0]], even.position[t[1]], even.position[t[2]]};
 }
 
-// Returns 1 if two triangles go along their common edge in opposite directions, as triangles do
-// that are turned alike; else -1.
-double alike(const Triangle& s, const Triangle& t, int32_t a, int32_t b) {
-  const auto goes_on = [a, b](const Triangle& triangle) {
-    return triangle[(corner_of(triangle, a) + 1) % 3] == b;
-  };
-  return goes_on(s) != goes_on(t) ? 1 : -1;
-}
-
-// The normals that triangles would have if one of their corners moved.
-class Moved {
+// The triangles at a vertex, as they would be if it moved.
+class MovedStar {
  public:
-  Moved(const EvenMesh& even, int32_t v, const Vec3& place) : e_(even), v_(v), place_(place) {}
-
-  Vec3 normal(int32_t t) const {
-    const Triangle& corners = e_.mesh.triangle(t);
-    if (corners[0] != v_ && corners[1] != v_ && corners[2] != v_) return e_.normal[t];
-    Places places = places_of(e_, corners);
-    places[corner_of(corners, v_)] = place_;
-    const Plane plane = plane_of(places);
-    return plane.height < kNeedle ? e_.normal[t] : plane.normal;
+  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place) : e_(even) {
+    e_.mesh.for_triangles(v, [&](int32_t t) {
+      const Triangle& corners = e_.mesh.triangle(t);
+      const int at = corner_of(corners, v);
+      Places places = places_of(e_, corners);
+      places[at] = place;
+      const Plane plane = plane_of(places);
+      const Vec3 normal = plane.height < kNeedle ? e_.normal[t] : plane.normal;
+      star_.push_back({t, corners[(at + 1) % 3], corners[(at + 2) % 3], normal});
+    });
   }
 
-  // Returns whether the sheet would fold at an edge of a triangle at which it does not yet.
-  bool folds(int32_t t, const Vec3& normal_of_t, int32_t a, int32_t b) const {
-    const auto& two = e_.mesh.triangles_at(a, b);
-    if (two.size() != 2) return false;
-    const int32_t other = two[0] == t ? two[1] : two[0];
-    const double sign = alike(e_.mesh.triangle(t), e_.mesh.triangle(other), a, b);
-    return sign * dot(normal_of_t, normal(other)) < kFold &&
-           sign * dot(e_.normal[t], e_.normal[other]) >= kFold;
+  // Returns whether a sheet would fold at an edge of the triangles at which it does not yet.
+  bool folds() const {
+    for (const Moved& one : star_) {
+      if (folds_across(one) || folds_at(one, one.next) || folds_at(one, one.last)) return true;
+    }
+    return false;
   }
 
  private:
+  struct Moved {
+    int32_t triangle, next, last;  // its corners after the vertex
+    Vec3 normal;
+  };
+
+  // At the edge that is not at the vertex.
+  bool folds_across(const Moved& one) const {
+    const auto& two = e_.mesh.triangles_at(one.next, one.last);
+    if (two.size() != 2) return false;
+    const int32_t other = two[0] == one.triangle ? two[1] : two[0];
+    const Triangle& corners = e_.mesh.triangle(other);
+    const bool alike = corners[(corner_of(corners, one.next) + 1) % 3] != one.last;
+    return folds(one, other, e_.normal[other], alike);
+  }
+
+  // At the edge to a corner.
+  bool folds_at(const Moved& one, int32_t corner) const {
+    const Moved* other = nullptr;
+    for (const Moved& beside : star_) {
+      if (&beside == &one || (beside.next != corner && beside.last != corner)) continue;
+      if (other) return false;
+      other = &beside;
+    }
+    if (!other) return false;
+    const bool alike = (one.next == corner) != (other->next == corner);
+    return folds(one, other->triangle, other->normal, alike);
+  }
+
+  // Triangles that are turned alike go along their common edge in opposite directions.
+  bool folds(const Moved& one, int32_t other, const Vec3& normal_of_other, bool alike) const {
+    const double sign = alike ? 1 : -1;
+    return sign * dot(one.normal, normal_of_other) < kFold &&
+           sign * dot(e_.normal[one.triangle], e_.normal[other]) >= kFold;
+  }
+
   const EvenMesh& e_;
-  int32_t v_;
-  const Vec3& place_;
+  std::vector<Moved> star_;
 };
 
 }  // namespace
 
 bool folds(const EvenMesh& even, int32_t v, const Vec3& place) {
-  const Moved moved(even, v, place);
-  bool found = false;
-  even.mesh.for_triangles(v, [&](int32_t t) {
-    if (found) return;
-    const Vec3 normal = moved.normal(t);
-    const Triangle& c = even.mesh.triangle(t);
-    for (int i = 0; i < 3; ++i) found = found || moved.folds(t, normal, c[i], c[(i + 1) % 3]);
-  });
-  return found;
+  return MovedStar(even, v, place).folds();
 }
 
 bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place) {

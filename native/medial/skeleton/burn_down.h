@@ -12,7 +12,7 @@ namespace medial {
 struct Bar {
   double complex, fringe, fire, wires, values, crisp;
 };
-// What the stages read besides the complex; all of it must outlive them.
+// The stages read this besides the complex; all of it must outlive them.
 struct Fuel {
   const FacetWeights& weight;
   const RadiusInFacet& radius;

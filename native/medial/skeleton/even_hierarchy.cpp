@@ -187,7 +187,7 @@ std::shared_ptr<const Parts> parts_selecting(const Parts& of, double theta, doub
   const TriangleWeights weight(made, made.thresholds);
   Collapse collapse = whole(made.complex, weight, run);
   peel_facets(made.complex, weight, collapse, run);
-  // What the mesh has as wires are limbs, and no remains of facets.
+  // Wires of the mesh are limbs, and no remains of facets.
   collapse.selected.assign(made.even->limb.size(), 0);
   for (size_t e = 0; e < made.even->limb.size(); ++e) {
     collapse.selected[e] = made.even->limb[e] > 0;

@@ -10,7 +10,7 @@
 namespace medial {
 namespace {
 
-constexpr int kRings = 2;   // of triangles beside new rims, which change
+constexpr int kRings = 2;      // of triangles beside new rims, which change
 constexpr int kRimRounds = 4;  // as many as take the zigzag of the samples off the rims of all
 
 // Returns for each vertex of a complex whether some, but not all facets of an edge there are left.

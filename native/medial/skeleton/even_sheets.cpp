@@ -144,8 +144,7 @@ class EvenSheets {
     places.place();
     // Rims lose what is uneven in their steps, and what that took off them comes back.
     options.moves_curves = true;
-    for (int i = 1; places.slide() && i < kSlides; ++i) {
-      places.place_rims();
+    for (int i = 0; i < kSlides && places.slide(); ++i) {
       one_round(even, options, 0.6 + 0.3 * i / kSlides);
       places.place_rims();
     }

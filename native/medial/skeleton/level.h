@@ -16,14 +16,14 @@
 
 namespace medial {
 
-// What the remesher knows of the vertices of an even mesh, in their order in the level.
+// The remesher knows this of the vertices of an even mesh, in their order in the level.
 struct EvenVertices {
   std::vector<double> target;   // as in EvenMesh
   std::vector<uint8_t> held;    // likewise
   std::vector<uint8_t> is_end;  // as SheetComplex::stays
 };
 
-// What the hierarchy of an even mesh has beyond others.
+// The hierarchy of an even mesh has this beyond others.
 struct EvenBase {
   EvenVertices vertices;
   std::vector<Vec3> exact;           // (v) the place that the vertex stands for, as in Level
