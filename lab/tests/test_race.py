@@ -560,7 +560,7 @@ def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
     assert (
         "old" not in text and "| slab | 8,000 | off, mean | x | 1.0e-04 | 1.0e-03 | 10.0 |" in text
     )
-    assert "| slab | 8,000 | y | exit code 3 |" in text and "z was skipped: `zz`" in text
+    assert "| y | exit code 3 | slab (8,000) |" in text and "z was skipped: `zz`" in text
     for name in ("race_mean.svg", "race_missed_mean.svg"):
         ElementTree.parse(tmp_path / "pictures" / name)
     files = {
