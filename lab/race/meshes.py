@@ -33,6 +33,7 @@ OURS = Path(__file__).parent / "meshes.toml"
 MARK = "<!-- Below this line stands what `python3 -m lab.race.meshes` measured. -->"
 POINTS = 8000  # drawn from the output
 BALLS = 5000  # of the exact axis
+SHOWN = ("box", "bracket", "cylinder", "ellipsoid")  # on the page; the CSV file has all solids
 
 
 class Inputs:
@@ -64,7 +65,7 @@ def row(
         cost, said = metered(words, Path(folder), limit)
         if cost["exit"] != 0 or not output.exists():
             print(recipe.name, said[-300:], file=sys.stderr)
-            return [*head, "failed", *[""] * (len(HEADER) - 3)]
+            return [*head, "failed", *[""] * (len(HEADER) - len(head) - 1)]
         found = read_axis.read(output)
         if kept:
             keep(found, inputs, kept.with_name(f"{kept.name} {recipe.name}.npz"))
@@ -160,10 +161,10 @@ def publish(rows: list[list[str]], page: Path) -> None:
 
 
 def means(rows: list[list[str]]) -> str:
-    """A row for each program: its mean distance off the axis and the mean that it missed, for each solid."""
-    cells = [dict(zip(HEADER, row, strict=True)) for row in rows]
+    """A row for each program: its mean distance off the axis and the mean that it missed, for the solids of the page."""
+    cells = [dict(zip(HEADER, row, strict=True)) for row in rows if row[0] in SHOWN]
     found = {
-        (x["program"], x["solid"]): f"{x['off mean']} / {x['missed mean']}".removesuffix(" / ")
+        (x["program"], x["solid"]): f"{x['off mean']}, {x['missed mean']}".removesuffix(", ")
         for x in cells
     }
     solids = list(dict.fromkeys(x["solid"] for x in cells))
