@@ -161,7 +161,7 @@ def publish(rows: list[list[str]], page: Path) -> None:
 
 
 def means(rows: list[list[str]]) -> str:
-    """A row for each program: its mean distance off the axis and the mean that it missed, for the solids of the page."""
+    """A row for each program: the mean distances off the axis and of what it missed, for the solids of the page."""
     cells = [dict(zip(HEADER, row, strict=True)) for row in rows if row[0] in SHOWN]
     found = {
         (x["program"], x["solid"]): f"{x['off mean']}, {x['missed mean']}".removesuffix(", ")
