@@ -5,7 +5,8 @@
         [--table PAGE]
 
 builds everything and calls this. CGAL alone (bare_triangulation.cpp, compiled as the product is) and ours take turns,
-each in a process of its own; figures are medians of the turns, ratios medians of the ratios of neighbours.
+each in a process of its own; figures are medians of the turns, ratios medians of the ratios of neighbours. With
+--table the page gets the short tables, and CSV files next to it the long ones.
 
 All: the analysis and the first extract. Own: of that all but CGAL's part. Again: a later extract, as a slider wants
 it. CPU: all / bare in processor time, of all threads together. Others: how many cores other processes kept busy
@@ -265,7 +266,7 @@ def short(found: dict) -> list[str]:
 
 def publish(found: dict, page: Path) -> None:
     put_below_mark("\n".join([described(found), *short(found)]), page)
-    for name, table in LONG.items():
+    for name, table in LONG.items() if found["native"] else ():
         path = page.with_name(f"{page.stem}_{name}.csv")
         with path.open("w", newline="", encoding="utf-8") as file:
             header, rows = table(found["native"])
