@@ -5,7 +5,8 @@
         [--table PAGE]
 
 builds everything and calls this. CGAL alone (bare_triangulation.cpp, compiled as the product is) and ours take turns,
-each in a process of its own; figures are medians of the turns, ratios medians of the ratios of neighbours.
+each in a process of its own; figures are medians of the turns, ratios medians of the ratios of neighbours. With
+--table the page gets the short tables, and CSV files next to it the long ones.
 
 All: the analysis and the first extract. Own: of that all but CGAL's part. Again: a later extract, as a slider wants
 it. CPU: all / bare in processor time, of all threads together. Others: how many cores other processes kept busy
@@ -17,6 +18,7 @@ Meshes are taken from the folder that MEDIAL_AXIS_TEST_DATA names, when it exist
 from __future__ import annotations
 
 import argparse
+import csv
 import json
 import os
 import platform
@@ -138,7 +140,11 @@ def speed_up(row: dict, rows: list[dict]) -> float:
 # --- tables
 
 
-def beside_bare(results: list[dict]) -> str:
+Table = tuple[list[str], list[list[str]]]
+"""A header and rows."""
+
+
+def beside_bare(results: list[dict]) -> Table:
     header = ["input", "points", "inside from", "threads", "bare s", "all s", "all / bare"]
     header += ["CPU", "own s", "own / bare", "speed-up", "extract / bare", "again / bare", "facets"]
     header += ["peak B / point", "kept B / point", "bare B / point", "others"]
@@ -152,19 +158,17 @@ def beside_bare(results: list[dict]) -> str:
         cells += [f"{row['speed-up']:.2f}", f"{ratios['extract']:.2f}", f"{ratios['again']:.2f}"]
         cells += [f"{row['facets']:.0f}", *(f"{size / count:.0f}" for size in sizes)]
         rows.append([*cells, f"{row['others']:.1f}"])
-    return _module.markdown(header, rows)
+    return header, rows
 
 
-def stages(results: list[dict]) -> str:
+def stages(results: list[dict]) -> Table:
     names = list(dict.fromkeys(name for _, row in each_row(results) for name in row["stages"]))
     rows = []
     for result, row in each_row(results):
         cells = [f"{row['stages'][name]:.3f}" if name in row["stages"] else "" for name in names]
         seconds = (row["seconds"]["extract"], row["seconds"]["again"])
         rows.append([*label(result, row), *cells, *(f"{x:.3f}" for x in seconds)])
-    return _module.markdown(
-        ["input", "points", "inside from", "threads", *names, "extract", "again"], rows
-    )
+    return ["input", "points", "inside from", "threads", *names, "extract", "again"], rows
 
 
 def beside_others(results: list[dict]) -> str:
@@ -225,7 +229,7 @@ def main() -> None:
     found = {"machine": {**machine(), "turns": options.repeats}, "native": [], "blender": []}
     for work in ladder(options.largest, options.only):
         found["native"].append(measured(work, options))
-        print(beside_bare(found["native"][-1:]), file=sys.stderr, flush=True)
+        print(_module.markdown(*beside_bare(found["native"][-1:])), file=sys.stderr, flush=True)
         write(found, options.output)
     for work in blender_bench.ladder(options.largest, options.only):
         found["blender"].append(
@@ -235,22 +239,38 @@ def main() -> None:
         write(found, options.output)
     if not (found["native"] or found["blender"]):
         raise SystemExit("Expected an input to measure, found none; see --only and --largest")
-    tables = (options.output / "bench.md").read_text()
     if options.table:
-        put_below_mark(tables, options.table)
-    print(tables)
+        publish(found, options.table)
+    print((options.output / "bench.md").read_text())
 
 
 def write(found: dict, folder: Path) -> None:
     """All that was found so far."""
     tables = []
     if found["native"]:
-        tables += [table(found["native"]) for table in (beside_bare, stages, beside_others)]
-    if found["blender"]:
-        tables.append(blender_bench.table(found["blender"]))
+        tables += [_module.markdown(*table(found["native"])) for table in LONG.values()]
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bench.json").write_text(json.dumps(found, indent=1))
-    (folder / "bench.md").write_text("\n".join([described(found), *tables]))
+    (folder / "bench.md").write_text("\n".join([described(found), *tables, *short(found)]))
+
+
+LONG = {"bare": beside_bare, "stages": stages}
+"""The tables that are CSV files next to the page, `performance_bare.csv` and so on."""
+
+
+def short(found: dict) -> list[str]:
+    """The tables that the page shows."""
+    tables = [beside_others(found["native"])] if found["native"] else []
+    return tables + ([blender_bench.table(found["blender"])] if found["blender"] else [])
+
+
+def publish(found: dict, page: Path) -> None:
+    put_below_mark("\n".join([described(found), *short(found)]), page)
+    for name, table in LONG.items() if found["native"] else ():
+        path = page.with_name(f"{page.stem}_{name}.csv")
+        with path.open("w", newline="", encoding="utf-8") as file:
+            header, rows = table(found["native"])
+            csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
 
 def described(found: dict) -> str:

@@ -2,7 +2,7 @@
 """Builds the library with one fault at a time and says which test notices it.
 
     python3 lab/mutations/sweep.py --check                  each text occurs once in the sources; takes no time
-    python3 lab/mutations/sweep.py --folder FOLDER          all mutations; the table goes into docs/lab/mutations.md
+    python3 lab/mutations/sweep.py --folder FOLDER          all mutations; the table goes into docs/lab/mutations.csv
     python3 lab/mutations/sweep.py --folder FOLDER --only selection.cpp   those with such words in the table
 
 Works on a copy of the tree in FOLDER, so the checkout is not touched. What was found is kept there, and a sweep that
@@ -11,6 +11,7 @@ Python tests that the mutation names, or to all of them when it names none.
 """
 
 import argparse
+import csv
 import json
 import re
 import shutil
@@ -23,8 +24,10 @@ from pathlib import Path
 from mutations import MUTATIONS, Mutation
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = ROOT / "docs/lab/mutations.md"
+PAGE = ROOT / "docs/lab/mutations.md"
+TABLE = PAGE.with_suffix(".csv")
 MARK = "<!-- The rest is written by lab/mutations/sweep.py. -->\n"
+HEADER = ["file", "fault", "noticed by"]
 TARGETS = ("medial_tests", "medial_thread_tests", "medial_cost_tests")
 EQUIVALENT, SURVIVED, UNDECIDED = "equivalent", "survived", "not noticed by ctest"
 
@@ -156,7 +159,20 @@ def is_wanted(mutation: Mutation, words: list[str]) -> bool:
     return not words or any(word in key(mutation) for word in words)
 
 
-def table(found: dict[str, str]) -> Iterator[str]:
+def table(found: dict[str, str]) -> list[list[str]]:
+    """A row for each mutation."""
+    return [
+        [m.file, m.breaks, re.sub(r"^(ctest|Python): ", "", found.get(key(m), "not run"))]
+        for m in MUTATIONS
+    ]
+
+
+def save(path: Path, rows: list[list[str]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *rows])
+
+
+def summary(found: dict[str, str]) -> Iterator[str]:
     """The rest of the page."""
     results = [found.get(key(m), "not run") for m in MUTATIONS]
     native = sum(result.startswith("ctest") for result in results)
@@ -165,10 +181,6 @@ def table(found: dict[str, str]) -> Iterator[str]:
     yield f"{results.count(EQUIVALENT)} equivalent, {results.count(SURVIVED)} survived"
     left = results.count("not run")
     yield f", {left} not run.\n" if left else ".\n"
-    yield "\n| file | fault | noticed by |\n|---|---|---|\n"
-    for mutation, result in zip(MUTATIONS, results):
-        what = re.sub(r"^(ctest|Python): (.*)$", r"`\2`", result)
-        yield f"| `{mutation.file}` | {mutation.breaks} | {what} |\n"
     argued = [m for m in MUTATIONS if m.equivalent]
     if argued:
         yield "\nEquivalent, so that no test can notice them:\n\n"
@@ -177,10 +189,11 @@ def table(found: dict[str, str]) -> Iterator[str]:
 
 
 def publish(found: dict[str, str]) -> None:
-    head, mark, _ = TABLE.read_text().partition(MARK)
+    head, mark, _ = PAGE.read_text().partition(MARK)
     if not mark:
-        raise SystemExit(f"Expected the line {MARK!r} in {TABLE}, found none; put it back.")
-    TABLE.write_text(head + mark + "\n" + "".join(table(found)))
+        raise SystemExit(f"Expected the line {MARK!r} in {PAGE}, found none; put it back.")
+    PAGE.write_text(head + mark + "\n" + "".join(summary(found)))
+    save(TABLE, table(found))
 
 
 def sweep(copy: Copy, words: list[str], results: Path, native: bool) -> None:

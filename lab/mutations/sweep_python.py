@@ -2,7 +2,7 @@
 """Makes one small bug at a time in the Python of the core and says which test notices it.
 
     python3 lab/mutations/sweep_python.py --check            each text occurs once in the sources; takes no time
-    python3 lab/mutations/sweep_python.py --folder FOLDER    all; the table goes into docs/lab/mutations.md
+    python3 lab/mutations/sweep_python.py --folder FOLDER    all; the table goes into docs/lab/mutations_python.csv
     python3 lab/mutations/sweep_python.py --folder FOLDER --only batch/
 
 The package is copied into FOLDER with its compiled module, so the checkout is not touched and nothing is compiled. The
@@ -18,13 +18,13 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 from python_mutations import MUTATIONS, SOURCES
-from sweep import MARK, ROOT, SURVIVED, TABLE, is_wanted, key
+from sweep import MARK, PAGE, ROOT, SURVIVED, is_wanted, key, save
 
-BEGIN = "<!-- The table up to the next comment is written by lab/mutations/sweep_python.py. -->\n"
+BEGIN = "<!-- The line up to the next comment is written by lab/mutations/sweep_python.py. -->\n"
+TABLE = PAGE.with_name("mutations_python.csv")
 PACKAGE = SOURCES.parent
 
 
@@ -90,24 +90,25 @@ class Tests:
         return ""
 
 
-def table(found: dict[str, str]) -> Iterator[str]:
+def table(found: dict[str, str]) -> list[list[str]]:
+    """A row for each mutation."""
+    return [[m.file, m.breaks, found.get(key(m), "not run")] for m in MUTATIONS]
+
+
+def summary(found: dict[str, str]) -> str:
     results = [found.get(key(m), "not run") for m in MUTATIONS]
     survived, left = results.count(SURVIVED), results.count("not run")
-    yield f"\n{len(results)} mutations of Python: {len(results) - survived - left} noticed, {survived} survived"
-    yield f", {left} not run.\n" if left else ".\n"
-    yield "\n| file | bug | noticed by |\n|---|---|---|\n"
-    for mutation, result in zip(MUTATIONS, results):
-        shown = result if result in (SURVIVED, "not run") else f"`{result}`"
-        yield f"| `{mutation.file}` | {mutation.breaks} | {shown} |\n"
-    yield "\n"
+    text = f"{len(results)} mutations of Python: {len(results) - survived - left} noticed, {survived} survived"
+    return text + (f", {left} not run.\n" if left else ".\n")
 
 
 def publish(found: dict[str, str]) -> None:
-    head, begin, rest = TABLE.read_text().partition(BEGIN)
+    head, begin, rest = PAGE.read_text().partition(BEGIN)
     _, mark, tail = rest.partition(MARK)
     if not (begin and mark):
-        raise SystemExit(f"Expected the lines {BEGIN!r} and {MARK!r} in {TABLE}; put them back.")
-    TABLE.write_text(head + begin + "".join(table(found)) + mark + tail)
+        raise SystemExit(f"Expected the lines {BEGIN!r} and {MARK!r} in {PAGE}; put them back.")
+    PAGE.write_text(f"{head}{begin}\n{summary(found)}\n{mark}{tail}")
+    save(TABLE, table(found))
 
 
 def sweep(tests: Tests, words: list[str], results: Path) -> None:

@@ -14,6 +14,7 @@ in spacings; the area is that of the output over the exact one. `--keep` writes 
 from __future__ import annotations
 
 import argparse
+import csv
 import sys
 import tempfile
 from pathlib import Path
@@ -26,19 +27,20 @@ from . import judge, product, read_axis, recipes
 from .betti import betti
 from .run import metered
 
-HEADER = ["program", "gets", "off mean", "off largest", "missed mean", "missed largest"]
-HEADER += ["gap mean", "area", "Betti", "faces"]
+HEADER = ["solid", "program", "gets", "off mean", "off largest", "missed mean"]
+HEADER += ["missed largest", "gap mean", "area", "Betti", "faces"]
 OURS = Path(__file__).parent / "meshes.toml"
 MARK = "<!-- Below this line stands what `python3 -m lab.race.meshes` measured. -->"
 POINTS = 8000  # drawn from the output
 BALLS = 5000  # of the exact axis
+SHOWN = ("box", "bracket", "cylinder", "ellipsoid")  # on the page; the CSV file has all solids
 
 
 class Inputs:
     """Files of one solid in a folder: its mesh, and samples of it with normals."""
 
     def __init__(self, name: str, count: int, folder: Path) -> None:
-        self.solid = crisp_solids.solid(name)
+        self.name, self.solid = name, crisp_solids.solid(name)
         made = crisp_runs.Case(name, count).made(crisp=False)
         self.frame, points = made.frame, made.computation.chosen.samples.points
         self.samples = len(points)
@@ -56,14 +58,14 @@ _ENDS = {"mesh": "off", "points": "xyz", "oriented": "xyzn"}
 def row(
     recipe: recipes.Recipe, inputs: Inputs, count: int, limit: int, kept: Path | None
 ) -> list[str]:
-    head = [recipe.name, "faces" if recipe.gets == "mesh" else recipe.gets]
+    head = [inputs.name, recipe.name, "faces" if recipe.gets == "mesh" else recipe.gets]
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, recipe.output)
         words = recipe.words({**inputs.files, "output": output, "count": count})
         cost, said = metered(words, Path(folder), limit)
         if cost["exit"] != 0 or not output.exists():
             print(recipe.name, said[-300:], file=sys.stderr)
-            return [*head, "failed", *[""] * (len(HEADER) - 3)]
+            return [*head, "failed", *[""] * (len(HEADER) - len(head) - 1)]
         found = read_axis.read(output)
         if kept:
             keep(found, inputs, kept.with_name(f"{kept.name} {recipe.name}.npz"))
@@ -113,17 +115,18 @@ def programs(count: int, names: list[str] | None = None) -> list[recipes.Recipe]
     return [recipe for recipe in known if not recipe.missing() and count <= recipe.largest]
 
 
-def table(
+def measured(
     name: str, count: int, limit: int, names: list[str] | None = None, folder: Path | None = None
-) -> str:
+) -> list[list[str]]:
+    """A row for each program."""
     kept = folder and folder / name  # the beginning of the names of its files
     with tempfile.TemporaryDirectory() as made:
         inputs = Inputs(name, count, Path(made))
         rows = []
         for recipe in programs(count, names):
             rows.append(row(recipe, inputs, count, limit, kept))
-            print(name, " | ".join(rows[-1]), file=sys.stderr, flush=True)
-    return f"### {name}\n\n{product.markdown(HEADER, rows)}"
+            print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
+    return rows
 
 
 def main() -> None:
@@ -135,22 +138,39 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=8000)
     parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
     parser.add_argument("--programs", nargs="+", help="names of both lists; default: all")
-    parser.add_argument("--page", type=Path, help="also write the tables there, below the mark")
+    parser.add_argument(
+        "--page", type=Path, help="also write the means there, below the mark, and a CSV file"
+    )
     parser.add_argument("--keep", type=Path, help="a folder for what the programs found")
     options = parser.parse_args()
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
     given = options.samples, options.limit, options.programs, options.keep
-    text = "\n".join(table(name, *given) for name in options.shapes)
-    print(text)
+    rows = [row for name in options.shapes for row in measured(name, *given)]
+    print(product.markdown(HEADER, rows))
     if options.page:
-        publish(text, options.page)
+        publish(rows, options.page)
 
 
-def publish(text: str, page: Path) -> None:
-    """Below the mark, where the page has one; what is above it stays."""
+def publish(rows: list[list[str]], page: Path) -> None:
+    """All rows into a CSV file next to the page; the means below its mark. What is above the mark stays."""
+    with page.with_suffix(".csv").open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *rows])
     above = page.read_text(encoding="utf-8").partition(MARK)[0] if page.exists() else ""
-    page.write_text(f"{above}{MARK}\n\n{text}", encoding="utf-8")
+    page.write_text(f"{above}{MARK}\n\n{means(rows)}", encoding="utf-8")
+
+
+def means(rows: list[list[str]]) -> str:
+    """A row for each program: the mean distances off the axis and of what it missed, for the solids of the page."""
+    cells = [dict(zip(HEADER, row, strict=True)) for row in rows if row[0] in SHOWN]
+    found = {
+        (x["program"], x["solid"]): f"{x['off mean']}, {x['missed mean']}".removesuffix(", ")
+        for x in cells
+    }
+    solids = list(dict.fromkeys(x["solid"] for x in cells))
+    names = dict.fromkeys(x["program"] for x in cells)
+    body = [[name, *(found.get((name, solid), "") for solid in solids)] for name in names]
+    return product.markdown(["program", *solids], body)
 
 
 if __name__ == "__main__":

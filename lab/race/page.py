@@ -28,11 +28,14 @@ def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
     pictures = path.parent.parent / "pictures"
     pictures.mkdir(exist_ok=True)
     plots = "\n".join(_plot(rows, measure, pictures) for measure in ("mean", "missed_mean"))
-    parts = [_better(rows), plots, _overview(rows), _outer(rows), _cost(rows)]
+    parts = [_better(rows), plots, OVERVIEW]
     parts.append(_failures(rows, skipped))
     _save(path, "losses", [*LOST, "its price", "why"], _paid_rows(rows))
     _save(path, "accuracy", ACCURACY, _accuracy_rows(rows))
     _save(path, "measures", MEASURES, _measure_rows(rows))
+    _save(path, "outer", ["solid", "program", *WORDS.values()], _outer_rows(rows))
+    sizes = sorted({row["size"] for row in rows})
+    _save(path, "cost", ["program", *map(str, sizes)], _cost_rows(rows, sizes))
     path.write_text(f"{above}{MARK}\n\n" + "\n".join(parts) + f"\n{END}{below}", encoding="utf-8")
 
 
@@ -181,39 +184,20 @@ def _means(row: Row) -> list[str]:
     return [f"{row['mean']:.0e}", f"{row['missed_mean']:.0e}"]
 
 
-def _overview(rows: list[Row]) -> str:
-    """Mean accuracy and coverage of every program at one size, in a table each for clean and noisy samples."""
-    parts = [
-        "## Accuracy and coverage\n",
-        "Mean distance off the exact axis / of the exact axis missed. All sizes are in "
-        f"[`benchmark_accuracy.csv`](benchmark_accuracy.csv); every measure at {FULL:,} samples, with topology, size, "
-        "time and memory, is in [`benchmark_measures.csv`](benchmark_measures.csv).\n",
-    ]
-    scored = [row for row in compare.scored(rows) if not row["outer"] and row["size"] == FULL]
-    for noisy in (False, True):
-        for size in sorted({row["size"] for row in scored if row["noisy"] == noisy}):
-            chosen = [r for r in scored if r["size"] == size and r["noisy"] == noisy]
-            programs = list(
-                dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen)))
-            )
-            solids = [name for name in SOLIDS if any(r["solid"] == name for r in chosen)]
-            cells = {(r["program"], r["solid"]): r for r in chosen}
-            body = [
-                [name, *(_pair(cells.get((name, solid))) for solid in solids)] for name in programs
-            ]
-            title = f"{size:,} samples, {'noisy' if noisy else 'clean'}"
-            parts.append(f"<details><summary>{title}</summary>\n")
-            parts.append(table(["program", *solids], body) + "\n</details>\n")
-    return "\n".join(parts)
+OVERVIEW = (
+    "## Accuracy and coverage\n\n"
+    "Mean distances off the exact axis and of the exact axis missed, of every program at every size, are in "
+    f"[`benchmark_accuracy.csv`](benchmark_accuracy.csv); every measure at {FULL:,} samples, with topology, size, "
+    "time and memory, is in [`benchmark_measures.csv`](benchmark_measures.csv). Outer axes, in the box of the surface, "
+    "are in [`benchmark_outer.csv`](benchmark_outer.csv); convex solids have none, that of the knot is not known. "
+    "Processor time and memory of the whole process, the median over the solids, are in "
+    "[`benchmark_cost.csv`](benchmark_cost.csv).\n"
+)
 
 
 def _rank(rows: list[Row]) -> Callable[[str], tuple]:
     groups = {row["program"]: ["ours", "rival", "peer"].index(row["group"]) for row in rows}
     return lambda name: (groups[name], name)
-
-
-def _pair(row: Row | None) -> str:
-    return " / ".join(_means(row)) if row else "—"
 
 
 MEASURES = ["solid", "noise", "program", *WORDS.values(), "Betti", "area", "length", "CPU s", "MB"]
@@ -240,25 +224,22 @@ def _whole(row: Row) -> list[str]:
     return [row["program"], *(f"{row[m]:.1e}" for m in WORDS), _betti(row), *sizes]
 
 
-def _outer(rows: list[Row]) -> str:
+def _outer_rows(rows: list[Row]) -> list[list[str]]:
+    """Outer axes in the box of the surface; convex solids have none, that of the knot is not known."""
     chosen = [row for row in compare.scored(rows) if row["outer"]]
-    body = [
+    return [
         [row["solid"], row["program"], *(_number(row[m]) for m in WORDS)]
         for row in sorted(chosen, key=lambda r: list(SOLIDS).index(r["solid"]))
     ]
-    words = "In the box of the surface; convex solids have none, that of the knot is not known.\n"
-    header = ["solid", "program", *WORDS.values()]
-    return f"## Outer axes, {FULL:,} samples\n\n{words}\n{table(header, body)}" if body else ""
 
 
 def _number(value: float) -> str:
     return "—" if value != value else f"{value:.1e}"
 
 
-def _cost(rows: list[Row]) -> str:
-    """Median over the solids, clean."""
+def _cost_rows(rows: list[Row], sizes: list[int]) -> list[list[str]]:
+    """Processor time and memory of the whole process: the median over the solids, clean."""
     chosen = [row for row in compare.scored(rows) if not row["outer"] and not row["noisy"]]
-    sizes = sorted({row["size"] for row in chosen})
     programs = list(dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen))))
     body = []
     for name in programs:
@@ -267,11 +248,7 @@ def _cost(rows: list[Row]) -> str:
             found = [r for r in chosen if r["program"] == name and r["size"] == size]
             cells.append(_middle(found))
         body.append(cells)
-    words = (
-        "Processor time and memory of the whole process, the start of Python included where it is one; median over the "
-        "solids. The rivals compute our analysis first.\n"
-    )
-    return f"## Cost\n\n{words}\n{table(['program', *(f'{s:,}' for s in sizes)], body)}"
+    return body
 
 
 def _middle(rows: list[Row]) -> str:
@@ -282,11 +259,15 @@ def _middle(rows: list[Row]) -> str:
 
 
 def _failures(rows: list[Row], skipped: dict[str, list[str]]) -> str:
-    failed = [[_solid(r), _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r]
+    """A line for each program and reason, with the solids at which it failed."""
+    where: dict[tuple[str, str], list[str]] = {}
+    for row in rows:
+        if "failed" in row:
+            place = f"{_solid(row)} ({_samples(row)})"
+            where.setdefault((row["program"], row["failed"]), []).append(place)
+    failed = [[program, reason, "; ".join(places)] for (program, reason), places in where.items()]
     parts = ["## Without a result\n"]
-    parts.append(
-        table(["solid", "samples", "program", "what happened"], failed) if failed else "None.\n"
-    )
+    parts.append(table(["program", "what happened", "where"], failed) if failed else "None.\n")
     for name, missing in skipped.items():
         parts.append(f"- {name} was skipped: `{', '.join(missing)}` is not on the machine.")
     return "\n".join(parts) + "\n"

@@ -65,6 +65,25 @@ def test_tables_replace_what_stood_below_the_mark(tmp_path):
     )
 
 
+def test_long_tables_are_files_next_to_the_page(tmp_path):
+    page = tmp_path / "cost.md"
+    page.write_text(f"words\n{bench.MARK}\n\nold\n")
+    row = {
+        **{"sides": "NONE", "threads": 2, "facets": 9, "others": 0.0, "speed-up": 1.7},
+        **{"seconds": dict.fromkeys(("all", "own", "extract", "again"), 0.5)},
+        **{"ratios": dict.fromkeys(("all", "cpu", "own", "extract", "again"), 1.5)},
+        **{"bare": {"seconds": 0.25, "bytes": 500}, "bytes": {"with extract": 1000, "kept": 900}},
+        **{"stages": {"samples": 0.125}},
+    }
+    native = [{"input": "ellipsoid", "points": 10, "rows": [row], "qhull": None}]
+    machine = {**bench.machine(), "turns": 2}
+    bench.publish({"machine": machine, "native": native, "blender": []}, page)
+    assert "medians of 2 turns" in page.read_text() and "| ellipsoid | 10 " in page.read_text()
+    stages = (tmp_path / "cost_stages.csv").read_text().splitlines()
+    assert stages[1] == "ellipsoid,10,None,2,0.125,0.500,0.500"
+    assert (tmp_path / "cost_bare.csv").read_text().count("\n") == 2
+
+
 def test_a_window_opens_on_a_display_of_its_size(monkeypatch, tmp_path):
     pytest.importorskip("scipy")
     import blender_bench
