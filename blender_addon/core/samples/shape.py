@@ -48,6 +48,9 @@ class Shape:
         How `outward_faces.outward_shape` read each triangle; None before.
     offset : float
         How far outside of the surface that is meant the faces lie: those of a wrap do.
+    single : bool or None
+        Whether coordinates were rounded to float32, as all of Blender's and those of .stl files are; None where only
+        the numbers can tell.
     """
 
     points: NDArray[np.float64]
@@ -60,6 +63,7 @@ class Shape:
     rows: NDArray[np.int32] | None = None
     reading: NDArray[np.uint8] | None = None
     offset: float = 0.0
+    single: bool | None = None
 
     def has_vertices(self, count: int) -> bool:
         """Whether the points may be `count` vertices of an object, as those of a wrap never are."""

@@ -26,10 +26,9 @@ class Patch:
         The middle of its thinnest triangle, in the frame of the shape.
     area : float
     minimum : float
-        The length of its thinnest triangle. The length of a triangle is a median of three samples, so no single sample
-        decides.
+        The length of its thinnest triangle.
     lowest : float
-        The smallest length of its samples.
+        The smallest length of its samples; by the faces, where none is left out, the minimum.
     """
 
     place: tuple[float, float, float]
@@ -45,6 +44,8 @@ class ThinParts:
     Parameters
     ----------
     limit : float
+    minimum : float
+        The smallest length of all: never below the limit without a patch that says so.
     patches : tuple of Patch
         The thinnest first.
     patch_of_triangles : (f,) int32
@@ -58,6 +59,7 @@ class ThinParts:
     """
 
     limit: float
+    minimum: float
     patches: tuple[Patch, ...]
     patch_of_triangles: NDArray[np.int32]
     patch_of_faces: NDArray[np.int32]
@@ -84,7 +86,7 @@ def find_thin_parts(
         numbers = module.patches(found.triangles, thin, len(found.points))
     total = float(found.areas.sum())
     count = int(numbers.max(initial=-1)) + 1
-    all_areas = np.bincount(numbers[thin], found.areas[thin], count).astype(np.float64)
+    all_areas = np.bincount(numbers[thin], found.areas_below(limit)[thin], count).astype(np.float64)
     large = all_areas >= least / 100.0 * total
     large[numbers[thin & (found.surface.at_most < limit - found.slack)]] = True
     numbers, areas = _kept(numbers, all_areas, large)
@@ -93,7 +95,8 @@ def find_thin_parts(
     of_faces = np.where(faces >= 0, numbers[faces], -1).astype(np.int32) if len(numbers) else faces
     area = float(areas.sum())
     share = min(1.0, area / total) if total > 0.0 else 0.0
-    return ThinParts(limit, patches, numbers, of_faces, area, share)
+    minimum = patches[0].minimum if patches else max(found.minimum, limit)
+    return ThinParts(limit, minimum, patches, numbers, of_faces, area, share)
 
 
 def _kept(
@@ -115,8 +118,10 @@ def _described(
     rank = np.argsort(first, kind="stable")  # patches by their thinnest triangle
     new = np.full(len(areas) + 1, -1, np.int32)
     new[order[rank]] = np.arange(len(rank))
-    lowest = np.full(len(areas), np.inf)
-    np.minimum.at(lowest, numbers[inside], found.lengths[found.triangles[inside]].min(axis=1))
+    lowest = found.of_triangles[thinnest]
+    if found.surface.between_walls is None:
+        lengths = found.lengths[found.triangles[inside]].min(axis=1)
+        np.minimum.at(lowest, numbers[inside], lengths)
     places = found.points[found.triangles[thinnest]].mean(axis=1).tolist()
     patches = tuple(
         Patch(
