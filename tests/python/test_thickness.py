@@ -199,8 +199,8 @@ def test_a_narrow_lip_is_as_thick_as_the_way_through_it():
     middle = found.points[found.triangles].mean(axis=1)
     below = (np.hypot(*middle[:, :2].T) < 4.0) & (np.abs(middle[:, 2] - 7.8) < 1e-9)
     assert below.sum() > 100
-    # The ball that touches the top, the side of the lip and the edge below it is the nearest between walls.
-    assert 0.2 < found.of_triangles[below].min() and found.of_triangles[below].max() < 0.225
+    # Its balls roll to no wall, and one between walls has two thirds of the way through at least.
+    assert 0.13 < found.of_triangles[below].min() and found.of_triangles[below].max() < 0.225
 
 
 def rounded_disc(thickness=5.0, radius=60.0, edge=1.5):

@@ -281,7 +281,7 @@ class _Filled:
         self.of_triangles = self._least(values)
         self.parallel = self._least(balls.parallel)
         self.lengths = values
-        if edges is Edges.EXTRAPOLATE and not self.measured.all():
+        if edges is not Edges.GREY and not self.measured.all():
             self._fill()
 
     def _least(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -309,15 +309,12 @@ class _Filled:
         without[body[piece[np.isfinite(values)]]] = False
         alone = without[body[piece]]
         values[alone] = largest[body[piece[alone]]]
-        sources = np.flatnonzero(np.isfinite(values))
-        nearest, away = self._nearest(sheet[piece], sources)
+        nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(values)))
         lost = ~np.isfinite(away)  # of sheets whose balls roll nowhere
-        if lost.any():
-            nearest[lost] = self._nearest(np.zeros_like(piece), sources)[0][lost]
-        of_sheet = np.maximum(values[nearest], any_ball[place])
+        of_sheet = np.maximum(np.where(lost, 0.0, values[nearest]), any_ball[place])
         left = ~np.isfinite(self.of_triangles)[piece]
         np.minimum.at(self.of_triangles, piece[left], of_sheet[left])
-        far = np.unique(piece[left & ~bare[sheet[piece]]])
+        far = np.unique(piece[left & (lost | ~bare[sheet[piece]])])
         ways = self._places.ways(far)
         least = np.where(np.isfinite(ways), _OF_WAY * ways, 0.0)
         self.of_triangles[far] = np.maximum(self.of_triangles[far], least)
