@@ -167,7 +167,7 @@ def test_a_fin_is_seen(tmp_path, width, thickness):
     found = measured(points, triangles, limit=0.02)
     parts = find_thin_parts(found, 0.02)
     table = export_thickness(found, parts, tmp_path / "fin.csv").read_text().split("\n")[1:-1]
-    lengths = np.array([float(row.split(",")[-1]) for row in table if not row.startswith("-1,")])
+    lengths = np.array([float(row.split(",")[4]) for row in table if not row.startswith("-1,")])
     assert lengths[8:] == pytest.approx(np.full(8, thickness), rel=0.01)
     assert (lengths[:8] > 0.5).all()
     on_fin = triangles.min(axis=1) >= 8
