@@ -740,11 +740,16 @@ class BallFaces:
         rounding: float = 0.0,
         progress: Progress | None = None,
         threads: int = 0,
-    ) -> NDArray[np.float64]:
-        """(n,) float64: diameters of the balls between walls to which those at given places roll, away from what they
-        touch; infinite where they come to rest between none.
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The balls between walls to which those at given places roll, away from what they touch.
 
-        On the narrow side of a plate it is the thickness of the plate. The arguments are those of `inscribed_balls`.
+        In a square pin they are those of its middle line, at the narrow side of a plate those of the plate. The
+        arguments are those of `inscribed_balls`.
+
+        Returns
+        -------
+        walls, parallel : (n,) float64
+            As those of `inscribed_balls`; infinite where a ball comes to rest between no walls.
 
         Raises
         ------

@@ -139,17 +139,18 @@ py::tuple balls_in_faces(const Faces& faces, const py::object& points, const py:
                         array_of<double>(std::move(found.parallel)));
 }
 
-py::array rolled_in_faces(const Faces& faces, const py::object& points, const py::object& face,
+py::tuple rolled_in_faces(const Faces& faces, const py::object& points, const py::object& face,
                           const py::array_t<double, py::array::c_style>& spacing, double rounding,
                           Progress* progress, int threads) {
   const GivenPlaces given(faces, points, face, spacing, py::none(), rounding);
   const Run run{thread_count(thread_argument(threads)), progress};
-  std::vector<double> found;
+  InscribedBalls found;
   {
     const py::gil_scoped_release release;
     found = rolled_balls(faces, given.places, run);
   }
-  return array_of<double>(std::move(found));
+  return py::make_tuple(array_of<double>(std::move(found.wall)),
+                        array_of<double>(std::move(found.parallel)));
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ def test_round_ends_gain_with_the_rest():
     """
     points, triangles = ellipsoid((1.0, 0.5, 0.5), 4)
     found = thickened((points, triangles), limit=0.9)
+    # Normals differ by 120 degrees where x = 4 y tan 30, so y = (28 / 3)^-1/2 and the ball has 2 y / cos 30 = 0.756.
     assert found.before.minimum < 0.76 and found.after.minimum > 0.87
 
 
@@ -117,7 +118,8 @@ def test_a_blend_rises_to_the_wall():
     points = points - points.min(axis=0)
     points[:, 2] *= 1.0 + 4.0 * points[:, 0]  # 0.02 to 0.18
     found = thickened((points, triangles), blend=0.2)
-    assert found.after.minimum > 0.99 * LIMIT  # every corner counts
+    # A ball that rests against the rim of a wall that tapers touches it farther on.
+    assert found.left.area == 0.0 and found.after.minimum > 0.99 * LIMIT
     moved = np.linalg.norm(found.moves, axis=1)
     thickness = 0.02 * (1.0 + 4.0 * points[:, 0])
     assert not moved[thickness > LIMIT + 0.01 + 0.08 * 0.2].any()
@@ -203,7 +205,7 @@ def divided(mesh, **wanted):
 def test_subdivide_divides_what_is_thin_in_part():
     mesh = turned(ramp(), 4)
     found = divided(mesh)
-    assert found.left.share < 0.004 and found.after.minimum > 0.95 * LIMIT
+    assert found.left.share < 0.002 and found.after.minimum > 0.95 * LIMIT
     shape = found.before.shape
     np.testing.assert_array_equal(shape.points[:8], mesh[0])
     assert topology.volume(shape.points, shape.triangles) == pytest.approx(topology.volume(*mesh))
@@ -287,7 +289,7 @@ def test_files_and_figures(tmp_path, capsys):
     assert len(triangles) == said["faces"] > 500
     thin = points[:, 0] < 0.2
     assert (
-        LIMIT < np.ptp(points[thin][:, 2]) < 1.4 * LIMIT
+        LIMIT < np.ptp(points[thin][:, 2]) < 1.3 * LIMIT
     )  # a wall in the plane of its rim gains more
 
 

@@ -20,7 +20,10 @@ def turned_part(rng: np.random.Generator, finer: int = 1) -> Mesh:
     around *= finer
     angle = 2 * np.pi * np.arange(around) / around
     circle = np.column_stack((np.cos(angle), np.sin(angle)))
-    points = [np.column_stack((r * circle, np.full(around, h))) for r, h in zip(radii, heights, strict=True)]
+    points = [
+        np.column_stack((r * circle, np.full(around, h)))
+        for r, h in zip(radii, heights, strict=True)
+    ]
     poles = [(0.0, 0.0, heights[0]), (0.0, 0.0, heights[-1])]
     points = np.concatenate((*points, poles))
     low, high = around * rings, around * rings + 1
@@ -60,7 +63,12 @@ def tube(rng: np.random.Generator) -> tuple[Mesh, float]:
     for i in range(around):
         j = (i + 1) % around
         for k in range(4):
-            a, b, c, d = (around * k + i, around * k + j, around * ((k + 1) % 4) + j, around * ((k + 1) % 4) + i)
+            a, b, c, d = (
+                around * k + i,
+                around * k + j,
+                around * ((k + 1) % 4) + j,
+                around * ((k + 1) % 4) + i,
+            )
             triangles += [(a, b, c), (a, c, d)]
     return (points, np.array(triangles, np.int32)), (outer - inner) * np.cos(np.pi / around)
 
@@ -85,7 +93,9 @@ def walls(mesh: Mesh, places: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray
     found, between = np.empty(len(places)), np.empty(len(places), bool)
     for i, (place, face) in enumerate(zip(places, faces, strict=True)):
         facing = normals @ normals[face]
-        beside = np.abs((corners - place) @ normals[face]).max(axis=1) > 1e-9  # not of its own plane
+        beside = (
+            np.abs((corners - place) @ normals[face]).max(axis=1) > 1e-9
+        )  # not of its own plane
         low, high = 0.0, float(np.ptp(corners.reshape(-1, 3), axis=0).max())
         for _ in range(_HALVINGS):
             radius = (low + high) / 2

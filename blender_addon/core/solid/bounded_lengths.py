@@ -47,6 +47,8 @@ class MeasuredSurface:
     between_walls, between_parallel : (f,) float64 or None
         By the faces, the least ball between walls that touches each triangle, and between walls that are nearly
         parallel; infinite where there is none.
+    at_rest : (f,) bool or None
+        By the faces, whether that ball only comes to rest against the triangle, so that no area of it is between walls.
     """
 
     points: NDArray[np.float64]
@@ -58,6 +60,7 @@ class MeasuredSurface:
     face_of_triangles: NDArray[np.int32] | None = None
     between_walls: NDArray[np.float64] | None = None
     between_parallel: NDArray[np.float64] | None = None
+    at_rest: NDArray[np.bool_] | None = None
 
 
 def bounded(

@@ -36,8 +36,6 @@ if TYPE_CHECKING:
 # a larger share of the area, faces are cut until no edge is longer than the other number of spacings.
 _COARSE, _SOME, _FINE = 4.0, 0.1, 1.5
 _REFLEX, _CONVEX = 1, 2  # kinds of edges
-# A ball between walls has at least this share of the way straight through: that of walls 120 degrees apart.
-_OF_WAY = 2.0 / 3.0
 _BURIED = 1e-6  # a larger share of the area that bounds nothing calls for samples
 
 
@@ -154,6 +152,7 @@ def lengths_by_faces(
         face_of_triangles=fine.faces,
         between_walls=filled.of_triangles,
         between_parallel=filled.parallel,
+        at_rest=filled.at_rest,
     )
     return surface, filled.measured[:count], row, fine is not coarse
 
@@ -201,7 +200,6 @@ class _Places:
         bare: NDArray[np.intp],
         middle: NDArray[np.float64],
     ) -> None:
-        self._solid = (shape.points - middle, shape.triangles)
         self._balls_in, self._middle, self._rounding = balls_in, middle, rounding_of(shape)
         self.fine, self.bare = fine, bare
         corners = fine.points[fine.triangles]
@@ -230,21 +228,13 @@ class _Places:
         of_wall[at[least]], of_parallel[at[least]] = found[1][least], found[2][least]
         return _Balls(of_any, of_wall, of_parallel)
 
-    def rolled(self, some: NDArray[np.intp]) -> NDArray[np.float64]:
-        """The balls between walls to which those at some of the rows of `place` roll; infinite where there is none."""
+    def rolled(self, some: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The balls between walls, and nearly parallel ones, to which those at some of the rows of `place` roll."""
         with native.own_errors():
-            return np.asarray(
-                self._balls_in.rolled_balls(*self._given(some), rounding=self._rounding)
+            walls, parallel = self._balls_in.rolled_balls(
+                *self._given(some), rounding=self._rounding
             )
-
-    def ways(self, pieces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """How far it is straight through the solid from the middles of some pieces."""
-        points, triangles = self._solid
-        middles = self.fine.points[self.fine.triangles[pieces]].mean(axis=1) - self._middle
-        normals = unit_normals(points[triangles[self.fine.faces[pieces]]])[0]
-        most = np.full(len(pieces), float(np.linalg.norm(np.ptp(points, axis=0))))
-        with native.own_errors() as module:
-            return np.asarray(module.wall_distances(middles, normals, most, points, triangles))
+        return walls, parallel
 
     def _given(self, some: NDArray[np.intp]) -> tuple[NDArray[Any], ...]:
         pieces = self.piece[some]
@@ -253,12 +243,14 @@ class _Places:
 
 
 class _Filled:
-    """The lengths of places and triangles.
+    """The lengths of places, for colours, and those of triangles, for figures.
 
-    A length is that of a ball between walls that touches the surface there. On a sheet without any such place, as the
-    narrow side of a plate, it is the one to which the largest of its balls roll, and where a solid has no walls at all,
-    as a tetrahedron, its largest ball. What is left, beside edges, takes that of the nearest place of its sheet, so
-    that it makes a thin part larger and never thinner, and makes none where there is no wall.
+    The length of a triangle is that of a ball between walls that touches it, and of nothing else. On a sheet where no
+    place lies between walls, as on a square pin or the narrow side of a plate, it is the one at which its largest balls
+    come to rest when they roll. A body without any walls, as a tetrahedron, is as thick as its largest ball.
+
+    Other places are filled in: they take the nearest length of their sheet, or its largest ball where it has none, and
+    no less than their own ball.
 
     Parameters
     ----------
@@ -269,20 +261,28 @@ class _Filled:
         The least length of each triangle; infinite where there is none.
     parallel : (f,) float64
         The same between walls that are nearly parallel.
+    at_rest : (f,) bool
+        That ball came to rest against the triangle.
     """
 
     def __init__(
         self, places: _Places, balls: _Balls, on_edge: NDArray[np.bool_], edges: Edges
     ) -> None:
-        self._places, self._balls = places, balls
+        self._places = places
         self._on_edge = np.append(on_edge, np.zeros(len(places.bare), bool))
         values = balls.any if edges is Edges.BALL else balls.wall
+        self._own = np.where(np.isfinite(balls.any), balls.any, 0.0)
         self.measured = np.isfinite(values)
         self.of_triangles = self._least(values)
         self.parallel = self._least(balls.parallel)
         self.lengths = values
-        if edges is not Edges.GREY and not self.measured.all():
-            self._fill()
+        self.at_rest = np.zeros(len(self.of_triangles), bool)
+        if self.measured.all():
+            return
+        sheet = _joined(places.fine, across=0)
+        sources = self._sources(sheet)
+        if edges is not Edges.GREY:
+            self._fill(sheet, sources)
 
     def _least(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """(f,) the least of values at the corners and middles of triangles; on an edge they are of other faces, too."""
@@ -292,32 +292,37 @@ class _Filled:
         np.minimum.at(least, piece[inside], values[place[inside]])
         return least
 
-    def _fill(self) -> None:
-        fine, place, piece = self._places.fine, self._places.place, self._places.piece
-        sheet = _joined(fine, across=0)
+    def _sources(self, sheet: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The length that others in a sheet may take from each row of `place`; infinite where there is none."""
+        place, piece = self._places.place, self._places.piece
         known = ~self._on_edge[place] & self.measured[place]
-        bare = np.ones(len(sheet), bool)  # by the sheet: it has no walls
-        bare[sheet[piece[known]]] = False
-        start = np.flatnonzero(bare[sheet[piece]] & self._are_largest(sheet))
-        values = np.where(known, self.lengths[place], np.inf)
-        values[start] = self._places.rolled(start)
-        body = _joined(fine, across=_CONVEX)
-        largest = np.zeros(len(body))
-        any_ball = np.where(np.isfinite(self._balls.any), self._balls.any, 0.0)
-        np.maximum.at(largest, body[piece], any_ball[place])
-        without = np.ones(len(body), bool)
-        without[body[piece[np.isfinite(values)]]] = False
-        alone = without[body[piece]]
-        values[alone] = largest[body[piece[alone]]]
-        nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(values)))
-        lost = ~np.isfinite(away)  # of sheets whose balls roll nowhere
-        of_sheet = np.maximum(np.where(lost, 0.0, values[nearest]), any_ball[place])
-        left = ~np.isfinite(self.of_triangles)[piece]
-        np.minimum.at(self.of_triangles, piece[left], of_sheet[left])
-        far = np.unique(piece[left & (lost | ~bare[sheet[piece]])])
-        ways = self._places.ways(far)
-        least = np.where(np.isfinite(ways), _OF_WAY * ways, 0.0)
-        self.of_triangles[far] = np.maximum(self.of_triangles[far], least)
+        found = np.where(known, self.lengths[place], np.inf)
+        start = np.flatnonzero(_without(known, sheet[piece]) & self._are_largest(sheet))
+        found[start], parallel = self._places.rolled(start)
+        np.minimum.at(self.of_triangles, piece[start], found[start])
+        self.at_rest[piece[start]] = True
+        np.minimum.at(self.parallel, piece[start], parallel)
+        body = _joined(self._places.fine, across=_CONVEX)
+        alone = _without(np.isfinite(found), body[piece])
+        largest = self._largest(body)
+        self.of_triangles[piece[alone]] = largest[alone]
+        self.at_rest[piece[alone]] = False
+        found[alone] = largest[alone]
+        return found
+
+    def _largest(self, group: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The diameter of the largest ball in the group of pieces of each row of `place`."""
+        place, piece = self._places.place, self._places.piece
+        largest = np.zeros(len(group))
+        np.maximum.at(largest, group[piece], self._own[place])
+        return largest[group[piece]]
+
+    def _fill(self, sheet: NDArray[np.int64], sources: NDArray[np.float64]) -> None:
+        place, piece = self._places.place, self._places.piece
+        nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(sources)))
+        known = np.isfinite(away)
+        of_sheet = np.where(known, sources[nearest], self._largest(sheet))
+        of_sheet = np.maximum(of_sheet, self._own[place])
         order = np.lexsort((of_sheet, away, place))
         first = order[np.unique(place[order], return_index=True)[1]]
         filled = np.full(len(self.lengths), np.inf)
@@ -327,7 +332,7 @@ class _Filled:
     def _are_largest(self, sheet: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Whether no neighbour of a place has a larger ball, by the row of `place`."""
         place, piece = self._places.place, self._places.piece
-        own = np.where(np.isfinite(self._balls.any) & ~self._on_edge, self._balls.any, 0.0)
+        own = np.where(self._on_edge, 0.0, self._own)
         of_pieces = np.zeros(len(sheet))
         np.maximum.at(of_pieces, piece, own[place])
         beside = np.zeros(len(own))
@@ -354,6 +359,13 @@ class _Filled:
             nearest = sources[module.nearest(points[sources], points)]
         away = np.linalg.norm(places[place[nearest]] - places[place], axis=1)
         return nearest, np.where(sheet[nearest] == sheet, away, np.inf)
+
+
+def _without(known: NDArray[np.bool_], group: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether nothing in the group of each row is known."""
+    some = np.zeros(int(group.max(initial=-1)) + 1, bool)
+    some[group[known]] = True
+    return ~some[group]
 
 
 def _joined(fine: FineFaces, across: int) -> NDArray[np.int64]:

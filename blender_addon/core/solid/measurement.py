@@ -121,6 +121,14 @@ class Measurement:
         return np.minimum(median, self.surface.at_most)
 
     @cached_property
+    def of_walls(self) -> NDArray[np.float64]:
+        """(f,) the same without balls that only come to rest against a triangle, which moves none of its ends apart."""
+        at_rest = self.surface.at_rest
+        return (
+            self.of_triangles if at_rest is None else np.where(at_rest, np.inf, self.of_triangles)
+        )
+
+    @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(f,) the areas of the triangles."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
@@ -129,15 +137,18 @@ class Measurement:
     def areas_below(self, limit: float) -> NDArray[np.float64]:
         """(f,) the part of the area of each triangle that is thinner than a limit.
 
-        By the faces each corner between walls stands for as much of its triangle as any other.
+        By the faces each corner stands for as much of its triangle as any other, but those on edges for none, and
+        balls that only come to rest against a triangle for no area.
         """
         thin = self.of_triangles < limit - self.slack
         if self.surface.between_walls is None:
             return self.areas * thin
-        known = (self.measured & ~self.at_edge)[self.triangles]
+        inside = ~self.at_edge[self.triangles]
+        known = inside & self.measured[self.triangles]
         below = known & (self.lengths[self.triangles] < limit - self.slack)
-        count = known.sum(axis=1)
-        return self.areas * np.where(count > 0, below.sum(axis=1) / np.maximum(count, 1), thin)
+        count = np.maximum(inside.sum(axis=1), 1)
+        others = thin & ~np.asarray(self.surface.at_rest)
+        return self.areas * np.where(known.any(axis=1), below.sum(axis=1) / count, others)
 
     @cached_property
     def minimum(self) -> float:
@@ -166,7 +177,13 @@ class Measurement:
             return 0.0
         if not len(self.triangles):
             return 1.0
-        return float(self.areas[~np.isfinite(self.of_triangles)].sum() / self.areas.sum())
+        by_faces = self.surface.between_walls is not None
+        known = (
+            np.isfinite(self.lengths)[self.triangles].any(axis=1)
+            if by_faces
+            else np.isfinite(self.of_triangles)
+        )
+        return float(self.areas[~known].sum() / self.areas.sum())
 
     @cached_property
     def slack(self) -> float:

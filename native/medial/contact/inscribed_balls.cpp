@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/union_find.h"
 
 namespace medial {
 namespace {
@@ -17,17 +18,16 @@ constexpr int kMostSteps = 16;     // from triangle to triangle, before all othe
 constexpr double kInside = 1e-9;   // a place is inside if it is so deep, as a share of the radius
 // Faces whose normals differ by less than 60 degrees from that of a place look almost as it does.
 constexpr double kAlike = 0.5;
-// Curved triangles know the surface up to this share of their bulge next to vertices, and up to the
-// other one between those.
-constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
+// Curved triangles know the surface up to this share of their bulge, but at vertices.
+constexpr double kUnknown = 1.0 / 64;
 // Normals of walls that are opposite differ by 120 degrees or more, of nearly parallel ones by 165.
 constexpr double kOpposite = -0.5, kParallel = -0.9659258262890683;
 // Places opposite lie no farther than the root of 3/4 from half of the way to the far end of a
 // ball, in radii; some more for normals that are not quite those of the ball.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr int kMostRolls = 64;      // steps of a ball that rolls
-constexpr double kStill = 1e-9;     // a step is none if it is so short, as a share of the radius
-constexpr double kMet = 1e-6;       // two balls are one if they are so close
+constexpr int kMostRolls = 64;     // steps of a ball that rolls
+constexpr double kStill = 1e-9;    // a step is none if it is so short, as a share of the radius
+constexpr double kMet = 1e-6;      // two balls are one if they are so close
 constexpr int kMostInVain = 48;    // leaves of the tree of faces
 constexpr double kSmaller = 0.99;  // a ball that is searched to the end, which few faces touch
 constexpr double kNothing = 1e-3;  // a ball of so many roundings is none
@@ -41,11 +41,18 @@ struct Place {
   double spacing = 0;
   double unknown = 0;  // so far it may be off the surface
   double turned = 0;   // so far its normal may be turned, as a sine
+  double tilted = 0;   // so far the normal may be off where the surface is curved, in radians
+  int32_t sheet = -1;  // of the surface between sharp edges
 };
 
 struct InnerBall {
   double radius = HUGE_VAL;
   Foot foot;
+};
+
+struct RolledBall {
+  InnerBall ball;
+  Place at;
 };
 
 Vec3 centre_of(const Place& x, double radius) { return x.point - radius * x.normal; }
@@ -70,6 +77,13 @@ class Shrinking {
     Box box;
     for (const Vec3& p : faces.mesh().points) box.add(p);
     reach_ = 0.5 * length(box.extent());
+    UnionFind joined(faces.mesh().triangles.size());
+    for (const MeshEdge& edge : faces.creases().edges) {
+      const auto [a, b] = edge.triangles;
+      if (edge.crease == Crease::none && b >= 0) joined.unite(a, b);
+    }
+    for (int32_t t = 0; t < std::ssize(faces.mesh().triangles); ++t)
+      sheet_.push_back(joined.find(t));
   }
 
   Place place_of(const FacePlaces& places, int32_t row) const {
@@ -78,13 +92,15 @@ class Shrinking {
     if (!places.normals.empty()) x.normal = places.normals[row];
     if (t < 0) return x;
     x.turned = turned(t);
+    x.sheet = sheet_[t];
     const Foot foot = faces_.lifted(t, x.point);
     const bool at_vertex = foot.at.a == 1 || foot.at.b == 1 || foot.at.c == 1;
-    if (!at_vertex) x.unknown = kUnknownBetween * faces_.bulge(t);
+    if (!at_vertex) x.unknown = kUnknown * faces_.bulge(t);
     if (faces_.is_curved(t)) x.spacing = std::max(x.spacing, width_of(faces_.mesh(), t));
     if (!places.normals.empty()) return x;
     x.point = foot.point;
     x.normal = faces_.normal(t, foot.at);
+    x.tilted = length(x.normal - faces_.normal_of_patch(t, foot.at));
     return x;
   }
 
@@ -105,26 +121,29 @@ class Shrinking {
       return between > cosine && between > cosine + turned(x, q);
     };
     if (!is_beside(ball.foot, centre_of(x, ball.radius))) return ball;
-    const double most = std::min(ball.radius + uncertainty(x, ball), reach_);
+    const double more = uncertainty(x, ball) + gain(x, ball) * x.unknown;
+    const double most = std::min(ball.radius + more, reach_);
+    const double beyond = x.unknown + x.tilted * most;
     const Vec3 centre = centre_of(x, most);
     const auto is_apart = [&](const Foot& at) {
       const Foot q = faces_.lifted(at.triangle, centre);
-      return q.distance > most + unknown_at(x, q) || is_beside(q, centre);
+      return q.distance > most + beyond + unknown_of(q) || is_beside(q, centre);
     };
     const auto other = faces_.nearest_lifted({.from = centre - kHalfWay * most * x.normal,
                                               .than = kReachOpposite * most,
                                               .second_centre = centre,
-                                              .second_radius = most + x.unknown + rounding_},
+                                              .second_radius = most + beyond + rounding_},
                                              is_apart);
     if (!other) return {};
     InnerBall found = settled(x, faces_.lifted(other->triangle, centre));
     shrink(x, found, is_beside);
-    return found;
+    return found.radius - ball.radius <= unknown_between(x, ball, found) ? found : InnerBall{};
   }
 
-  // Returns the ball between walls to which a ball rolls away from what it touches, as that in the
-  // narrow side of a plate does. It is infinite where the ball comes to rest between none.
-  InnerBall rolled(Place x, int32_t triangle, InnerBall ball) const {
+  // Returns the ball between walls at which a ball comes to rest that rolls away from what it
+  // touches. It is one of the place to which it rolled, or of the foot of that, as in the narrow
+  // side of a plate, and infinite where it comes to rest between no walls.
+  RolledBall rolled(Place x, int32_t triangle, InnerBall ball) const {
     double step = ball.radius;
     for (int i = 0; i < kMostRolls && step > kStill * ball.radius; ++i) {
       const Vec3 away = x.point - ball.foot.point;
@@ -139,7 +158,7 @@ class Shrinking {
       const InnerBall met = this->ball(next, {});
       if (met.foot.triangle < 0) return {};
       const InnerBall wall = between_walls(next, met, kOpposite);
-      if (wall.foot.triangle >= 0) return wall;
+      if (wall.foot.triangle >= 0) return {wall, next};
       const bool is_larger = met.radius > ball.radius;
       if (are_opposite(x, ball, next, met) && step <= kMet * ball.radius) {
         return is_larger ? at_foot(next, met) : at_foot(x, ball);
@@ -210,16 +229,27 @@ class Shrinking {
     return found;
   }
 
-  // Returns how far the distance to a foot may be off.
-  double unknown_at(const Place& x, const Foot& q) const {
-    return x.unknown + kUnknownBetween * faces_.bulge(q.triangle) + rounding_;
+  // Returns how far a foot may be off.
+  double unknown_of(const Foot& q) const { return kUnknown * faces_.bulge(q.triangle) + rounding_; }
+
+  // Returns how much a ball grows when its foot moves away: one close to the place makes more of it
+  // than one on the far side.
+  double gain(const Place& x, const InnerBall& ball) const {
+    const double depth = dot(x.point - ball.foot.point, x.normal);
+    return depth > 0 ? ball.radius / depth : 0;
   }
 
-  // Returns how much larger a ball would be if its foot were as far off as it may be: a foot close
-  // to the place makes more of it than one on the far side.
+  // Returns how much larger a ball may be, by its foot and by the normal at the place, which turns
+  // the ball about this.
   double uncertainty(const Place& x, const InnerBall& ball) const {
-    const double depth = dot(x.point - ball.foot.point, x.normal);
-    return depth > 0 ? unknown_at(x, ball.foot) * ball.radius / depth : 0;
+    const double aside = length(cross(x.point - ball.foot.point, x.normal));
+    return gain(x, ball) * (unknown_of(ball.foot) + x.tilted * aside);
+  }
+
+  // Returns how far the difference of two balls at a place may be off. If the place moved along its
+  // normal, both would change.
+  double unknown_between(const Place& x, const InnerBall& a, const InnerBall& b) const {
+    return uncertainty(x, a) + uncertainty(x, b) + std::abs(gain(x, a) - gain(x, b)) * x.unknown;
   }
 
   // Returns how far the cosine between the normals at a place and a foot may be off by rounding; if
@@ -236,8 +266,8 @@ class Shrinking {
     return rounding_ * longest / length(cross(q - p, r - p));  // over the least height
   }
 
-  // Returns the normal where a ball touches a foot. On a reflex edge, where faces have many normals,
-  // it is that of the ball.
+  // Returns the normal where a ball touches a foot. On a reflex edge, where faces have many
+  // normals, it is that of the ball.
   Vec3 normal_at(const Foot& q, const Vec3& centre) const {
     const std::array<double, 3> opposite{q.at.c, q.at.a, q.at.b};  // of the corner, for each edge
     for (int i = 0; i < 3; ++i) {
@@ -250,18 +280,18 @@ class Shrinking {
 
   // Returns whether balls at two places touch walls that are opposite to each other.
   bool are_opposite(const Place& x, const InnerBall& a, const Place& y, const InnerBall& b) const {
-    return dot(normal_at(a.foot, centre_of(x, a.radius)), normal_at(b.foot, centre_of(y, b.radius))) <=
-           kOpposite;
+    return dot(normal_at(a.foot, centre_of(x, a.radius)),
+               normal_at(b.foot, centre_of(y, b.radius))) <= kOpposite;
   }
 
   // Returns the largest ball that touches the foot of another one and holds no place opposite.
-  InnerBall at_foot(const Place& x, const InnerBall& ball) const {
+  RolledBall at_foot(const Place& x, const InnerBall& ball) const {
     const Place y = moved_to(x, ball.foot);
     InnerBall found{reach_, {}};
     shrink(y, found, [&](const Foot& q, const Vec3& centre) {
       return dot(y.normal, normal_at(q, centre)) > kOpposite + turned(y, q);
     });
-    return found;
+    return {found, y};
   }
 
   // Returns a place at a foot.
@@ -269,24 +299,29 @@ class Shrinking {
     Place y = x;
     y.point = foot.point;
     y.normal = faces_.normal(foot.triangle, foot.at);
-    y.unknown = kUnknownBetween * faces_.bulge(foot.triangle);
+    y.unknown = kUnknown * faces_.bulge(foot.triangle);
     y.turned = turned(foot.triangle);
+    y.tilted = length(y.normal - faces_.normal_of_patch(foot.triangle, foot.at));
+    y.sheet = sheet_[foot.triangle];
     return y;
   }
 
-  // Returns whether a foot belongs to the surface round a place: a ball that touches this at the
-  // place, up to rounding and to how well triangles know its curvature, does not hold the foot.
+  // Returns whether a foot belongs to the surface round a place, on its side of sharp edges: a ball
+  // that touches this at the place, up to rounding and to how well triangles know its curvature,
+  // does not hold the foot.
   bool is_own(const Place& x, const Foot& q) const {
     const Vec3 away = x.point - q.point;
     const double depth = dot(away, x.normal);
     if (!(depth > 0)) return true;
-    if (depth > rounding_ && squared_length(away) >= x.spacing * x.spacing) return false;
+    const bool is_near = squared_length(away) < x.spacing * x.spacing;
+    if (depth > rounding_ && !(is_near && sheet_[q.triangle] == x.sheet)) return false;
     return dot(faces_.normal(q.triangle, q.at), x.normal) > kAlike;
   }
 
   const Faces& faces_;
   double reach_ = 0;
   double rounding_ = 0;
+  std::vector<int32_t> sheet_;  // per triangle
 };
 
 // Places whose triangles are close to each other in the tree follow each other.
@@ -339,16 +374,21 @@ InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, con
   return result;
 }
 
-std::vector<double> rolled_balls(const Faces& faces, const FacePlaces& places, const Run& run) {
-  std::vector<double> result(places.points.size(), HUGE_VAL);
+InscribedBalls rolled_balls(const Faces& faces, const FacePlaces& places, const Run& run) {
+  const std::vector<double> none(places.points.size(), HUGE_VAL);
+  InscribedBalls result{none, none, none};
   const Shrinking shrinking(faces, places.rounding);
-  parallel_for(static_cast<int64_t>(result.size()), run, [&](int64_t i) {
+  parallel_for(static_cast<int64_t>(none.size()), run, [&](int64_t i) {
     const auto row = static_cast<int32_t>(i);
     const int32_t triangle = faces.triangle_of(places.triangle[i]);
     const Place x = shrinking.place_of(places, row);
     if (triangle < 0 || x.normal == Vec3{}) return;
     const InnerBall ball = shrinking.ball(x, {});
-    if (ball.foot.triangle >= 0) result[i] = 2 * shrinking.rolled(x, triangle, ball).radius;
+    if (ball.foot.triangle < 0) return;
+    const RolledBall rest = shrinking.rolled(x, triangle, ball);
+    result.diameter[i] = result.wall[i] = 2 * rest.ball.radius;
+    if (rest.ball.foot.triangle < 0) return;
+    result.parallel[i] = 2 * shrinking.between_walls(rest.at, rest.ball, kParallel).radius;
   });
   return result;
 }

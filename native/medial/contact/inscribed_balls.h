@@ -31,9 +31,9 @@ struct InscribedBalls {
 // the whole boundary of a solid. The result does not depend on the order of the places.
 InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, const Run& run);
 
-// Returns the diameter of the ball between walls to which the one at each place rolls, away from
-// what it touches: on the narrow side of a plate, the thickness of the plate. It is infinite where
-// the ball comes to rest between no walls.
-std::vector<double> rolled_balls(const Faces& faces, const FacePlaces& places, const Run& run);
+// Returns the balls between walls to which the one at each place rolls, away from what it touches:
+// in a square pin those of its middle line, at the narrow side of a plate those of the plate. They
+// are infinite where a ball comes to rest between no walls.
+InscribedBalls rolled_balls(const Faces& faces, const FacePlaces& places, const Run& run);
 
 }  // namespace medial
