@@ -195,7 +195,7 @@ def _check_size(found: Measurement, limit: float) -> None:
 
 def _missing(found: Measurement, limit: float) -> float:
     """The volume that thin walls lack, about."""
-    lack = np.maximum(limit - found.slack - found.of_triangles, 0.0)
+    lack = np.maximum(limit - found.slack - found.of_walls, 0.0)
     return float((lack * found.areas).sum())
 
 
@@ -292,14 +292,15 @@ class _Walls:
     def _lack(self, found: Measurement) -> NDArray[np.float64]:
         """(k,) what each fan lacks to the limit: at its vertex, or on edges and coarse faces at its triangles."""
         limit = self._wanted.limit * (1.0 + _BEYOND)
-        thin = found.of_triangles < self._wanted.limit - found.slack
+        lengths = found.of_walls
+        thin = lengths < self._wanted.limit - found.slack
         piece = found.surface.face_of_triangles
         faces = np.arange(len(found.triangles)) if piece is None else piece
         of_faces = np.full(len(self._triangles), np.inf)
-        np.minimum.at(of_faces, faces[thin], found.of_triangles[thin])
-        own = (found.of_vertices[self._row], found.at_edge[: len(self._row)][self._row])
-        lengths = np.where(own[1], np.inf, own[0])[self._triangles]
-        at_corners = np.where(np.isfinite(lengths), lengths, of_faces[:, None])
+        np.minimum.at(of_faces, faces[thin], lengths[thin])
+        elsewhere = (found.at_edge | ~found.measured)[: len(self._row)][self._row]
+        own = np.where(elsewhere, np.inf, found.of_vertices[self._row])[self._triangles]
+        at_corners = np.where(np.isfinite(own), own, of_faces[:, None])
         at_corners[~np.isfinite(of_faces)] = np.inf
         if found.triangles is not self._shape.triangles:
             at_corners = np.minimum(at_corners, of_faces[:, None])
@@ -324,7 +325,7 @@ class _Walls:
                 sharp_edges=self._shape.sharp_edges,
                 smooth=False,
             )
-            _, gap = outside.inscribed_balls(
+            _, gap, _ = outside.inscribed_balls(
                 corners.mean(axis=1),
                 rows.astype(np.int32),
                 size,
