@@ -185,6 +185,15 @@ def test_a_fin_is_seen(tmp_path, width, thickness):
     assert (height > 0.95).all() and (corners["colour"][height > 1.02, 0] > 200).mean() > 0.9
 
 
+def test_no_sample_of_a_patch_is_thicker_than_the_patch():
+    """Where only rays find a wall, its samples have more than its minimum."""
+    points, triangles = cube_with_fin(0.2, 0.0005)
+    found = measured(points, triangles[1:])
+    patches = find_thin_parts(found, 0.02).patches
+    assert len(found.walls.distance) and patches
+    assert all(0.0 < patch.lowest <= patch.minimum < 0.02 for patch in patches)
+
+
 @pytest.mark.parametrize(("width", "thickness"), [f for f in FINS if f[0] >= 0.1])
 def test_the_area_of_a_fin_is_its_own(width, thickness):
     found = measured(*cube_with_fin(width, thickness))

@@ -580,6 +580,27 @@ def test_openings_are_closed():
     assert_bars(found.lengths, 0.4)
 
 
+@pytest.mark.parametrize("bend", [0.0, 60.0])
+@pytest.mark.parametrize(("radius", "around"), [(5.0, 24), (3.0, 16)])
+def test_an_open_tube_is_as_thick_as_a_closed_one(radius, around, bend):
+    """Balls that touched the lids of its openings once passed for walls of a hundredth of that."""
+    turn = 2 * np.pi * np.arange(around) / around
+    along = np.linspace(0.0, 40.0, 20)[:, None]
+    x, y = radius * np.cos(turn), np.tile(radius * np.sin(turn), (20, 1))
+    if bend:
+        rings = ((bend + x) * np.cos(along / bend), y, (bend + x) * np.sin(along / bend))
+    else:
+        rings = (np.tile(x, (20, 1)), y, np.tile(along, around))
+    i = np.arange(19 * around)
+    j = i - i % around + (i + 1) % around
+    triangles = np.column_stack((i, j, j + around, i, j + around, i + around)).reshape(-1, 3)
+    points = np.stack(rings, axis=-1).reshape(-1, 3)
+    volume = np.linalg.det(points[triangles] - points.mean(axis=0)).sum()
+    found = measure((points, triangles if volume > 0 else triangles[:, ::-1]), Settings())
+    assert 0.98 * np.cos(np.pi / around) < found.minimum / (2 * radius) < 1.01
+    assert not find_thin_parts(found, 0.5 * radius).patches
+
+
 def test_vertices_of_a_dense_mesh_are_measured_as_they_are():
     vertices, triangles = ellipsoid(subdivisions=5)
     found = measure((vertices, triangles), Settings(), edges=Edges.BALL)
