@@ -132,16 +132,39 @@ def test_a_square_pin_is_seen(wide):
     assert found.minimum == pytest.approx(wide, rel=1e-6)
 
 
-def test_a_wedge_has_a_second_figure():
-    points = np.array([(0, 0, 0), (3, 0, 0), (3, 0, 1), (1, 0, 1)], float)
+@pytest.mark.parametrize("angle", [20.0, 30.0, 45.0])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_wedge_has_a_second_figure(angle, seed):
+    """A web of 1.26 ends in a sharp edge, towards which the least thickness is none."""
+    web, nose = 1.26, 1.26 / np.tan(np.radians(angle))
+    points = np.array([(0, 0, 0), (nose + 3, 0, 0), (nose + 3, 0, web), (nose, 0, web)])
     points = np.concatenate((points, points + np.array((0, 2, 0))))
     quads = [(0, 1, 2, 3), (7, 6, 5, 4)] + [
         ((i + 1) % 4, i, i + 4, (i + 1) % 4 + 4) for i in range(4)
     ]
     triangles = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
-    found = measure((points, triangles))
-    assert found.minimum < 0.1
-    assert found.between_parallel == pytest.approx(1.0, rel=1e-6)
+    mesh = turned((points, triangles), np.random.default_rng(seed), 10.0)
+    # By default a bend of 30 degrees or less is one of a smooth surface, which has other normals.
+    for settings in (FLAT, Settings()) if angle > 31.0 else (FLAT,):
+        found = measure(mesh, settings)
+        assert found.minimum < 0.1
+        assert found.between_parallel == pytest.approx(web, rel=1e-6)
+
+
+def test_both_figures_are_reported(tmp_path, capsys):
+    """A wedge with an edge of 30 degrees beside a plate: all of its faces meet at sharp edges."""
+    slant = 3.0 * np.array((np.cos(np.radians(30.0)), np.sin(np.radians(30.0))))
+    outline = np.array([(0.0, 0.0), (3.0, 0.0), slant])
+    wedge = np.array([(x, y, z) for y in (0.0, 2.0) for x, z in outline])
+    sides = [t for i, j in ((0, 1), (1, 2), (2, 0)) for t in ((i, i + 3, j + 3), (i, j + 3, j))]
+    mesh = joined((wedge, np.array([(0, 1, 2), (3, 5, 4), *sides])), block(4, 4, 1.26, (0, 8, 0)))
+    meshes.write_off(tmp_path / "wedge.off", mesh)
+    out = tmp_path / "wedge.json"
+    cli.main(["thickness", str(tmp_path / "wedge.off"), str(out), "--limit", "1"])
+    report = json.loads(out.read_text())
+    assert report["minimum"] < 0.1
+    assert report["minimum_parallel"] == pytest.approx(1.26, rel=1e-6)
+    assert "(1.26 between nearly parallel walls)" in capsys.readouterr().out
 
 
 # --- the rounding of the input
