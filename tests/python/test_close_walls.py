@@ -222,7 +222,13 @@ def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
     parts = find_thin_parts(found, 0.02)
     place = found.points[found.triangles].mean(axis=1)
     thin = parts.patch_of_triangles >= 0
-    assert place[thin, 0].min() > 0.7 and parts.area == pytest.approx(1.0, rel=0.05)
+    assert parts.minimum == pytest.approx(0.002, rel=1e-6)
+    # The ends have two middle lines where balls come to rest, 0.2 high up to x = 0.8 and 0.001 high from x = 1 on. Low
+    # places from x = 0.8 on are nearer to the second one; as few places lie on the first, this begins before.
+    assert (
+        place[thin, 0].min() > 0.7 and place[np.isfinite(found.of_triangles) & thin, 0].min() > 0.95
+    )
+    assert parts.area == pytest.approx(1.0, rel=0.05)
     assert found.of_vertices[[1, 2, 7, 8]] == pytest.approx(np.full(4, 0.002), rel=0.01)
     assert (found.of_vertices[[0, 5, 6, 11]] > 0.3).all()
 

@@ -163,12 +163,22 @@ def test_faces_never_pass_through_each_other():
         found = thickened(mesh, 0.1)
         assert not len(found.after.shape.crossing)
         assert found.moves.any() and any("run into each other" in text for text in found.warnings)
+        assert not any("coarse faces" in text for text in found.warnings)
 
 
-def test_where_nothing_moves_this_is_said():
+@pytest.mark.parametrize(
+    ("moved", "met", "reason"),
+    [
+        (False, False, "nothing moved, as a step would make more of it thin"),
+        (True, True, "make room between the walls"),
+        (False, True, "make room between the walls"),
+        (True, False, "coarse faces need a subdivision"),
+    ],
+)
+def test_the_reason_why_something_is_still_thin_is_said(moved, met, reason):
     left = SimpleNamespace(patches=[SimpleNamespace(minimum=0.02)], share=0.5)
-    (said,) = _left_over(left, False)
-    assert "nothing moved, as a step would make more of it thin" in said
+    (said,) = _left_over(left, moved, met)
+    assert reason in said
 
 
 def test_walls_of_a_wide_slot_get_the_limit():

@@ -129,8 +129,9 @@ def thicken(
     moves, crossed = walls.without_crossings(moves)
     after = measured(walls.shape_of(moves), Edges.EXTRAPOLATE)
     left = find_thin_parts(after, wanted.limit)
-    told = [_CROSSED] if crossed or overlap else []
-    warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()) or crossed))
+    met = crossed or overlap
+    told = [_CROSSED] if met else []
+    warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()), met))
     seconds = time.perf_counter() - start
     return Thickened(moves, before, after, left, walls.narrowest, warnings, seconds)
 
@@ -199,17 +200,24 @@ def _missing(found: Measurement, limit: float) -> float:
     return float((lack * found.areas).sum())
 
 
-def _left_over(left: ThinParts, moved: bool) -> tuple[str, ...]:
+def _left_over(left: ThinParts, moved: bool, met: bool) -> tuple[str, ...]:
+    """What is still thin, and why: other walls were in the way, a step helps nothing, or vertices are missing."""
     if not left.patches:
         return ()
+    share, least = percent(left.share), left.patches[0].minimum
+    if met:
+        return (
+            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: make room between the "
+            "walls, or take a smaller limit",
+        )
     if not moved:
         return (
-            f"{percent(left.share)} of the surface is still thinner than the limit, down to "
-            f"{left.patches[0].minimum:.3g}: nothing moved, as a step would make more of it thin; take a smaller limit",
+            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: nothing moved, as a step "
+            "would make more of it thin; take a smaller limit",
         )
     return (
-        f"{percent(left.share)} of the surface is still thinner than the limit, down to "
-        f"{left.patches[0].minimum:.3g}: tips and edges that taper stay, and coarse faces need a subdivision",
+        f"{share} of the surface is still thinner than the limit, down to {least:.3g}: tips and edges that taper stay, "
+        "and coarse faces need a subdivision",
     )
 
 

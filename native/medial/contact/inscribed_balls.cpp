@@ -157,7 +157,9 @@ class Shrinking {
       }
       const InnerBall met = this->ball(next, {});
       if (met.foot.triangle < 0) return {};
-      const InnerBall wall = between_walls(next, met, kOpposite);
+      // One that got smaller rolled too far, as onto a reflex corner.
+      const bool is_there = met.radius >= (1 - kMet) * ball.radius;
+      const InnerBall wall = is_there ? between_walls(next, met, kOpposite) : InnerBall{};
       if (wall.foot.triangle >= 0) return {wall, next};
       const bool is_larger = met.radius > ball.radius;
       if (are_opposite(x, ball, next, met) && step <= kMet * ball.radius) {
@@ -286,7 +288,8 @@ class Shrinking {
 
   // Returns the largest ball that touches the foot of another one and holds no place opposite.
   RolledBall at_foot(const Place& x, const InnerBall& ball) const {
-    const Place y = moved_to(x, ball.foot);
+    Place y = moved_to(x, ball.foot);
+    y.normal = normal_at(ball.foot, centre_of(x, ball.radius));
     InnerBall found{reach_, {}};
     shrink(y, found, [&](const Foot& q, const Vec3& centre) {
       return dot(y.normal, normal_at(q, centre)) > kOpposite + turned(y, q);
