@@ -201,7 +201,7 @@ def _missing(found: Measurement, limit: float) -> float:
 
 
 def _left_over(left: ThinParts, moved: bool, met: bool) -> tuple[str, ...]:
-    """What is still thin, and why: other walls were in the way, a step helps nothing, or vertices are missing."""
+    """Say why something is still thin: other walls were in the way, a step helps nothing, or vertices are missing."""
     if not left.patches:
         return ()
     share, least = percent(left.share), left.patches[0].minimum

@@ -157,7 +157,7 @@ class Shrinking {
       }
       const InnerBall met = this->ball(next, {});
       if (met.foot.triangle < 0) return {};
-      // One that got smaller rolled too far, as onto a reflex corner.
+      // A ball that got smaller rolled too far, as onto a reflex corner.
       const bool is_there = met.radius >= (1 - kMet) * ball.radius;
       const InnerBall wall = is_there ? between_walls(next, met, kOpposite) : InnerBall{};
       if (wall.foot.triangle >= 0) return {wall, next};
