@@ -128,6 +128,9 @@ def _said(report: dict[str, Any]) -> str:
     if report["minimum"] is None:
         return "no two walls face each other"
     minimum = f"minimum {report['minimum']:.4g}{unit}"
+    parallel = report.get("minimum_parallel")
+    if parallel is not None and f"{parallel:.4g}" != f"{report['minimum']:.4g}":
+        minimum += f" ({parallel:.4g} between nearly parallel walls)"
     if not report["limit"]:
         return minimum
     patches, share = len(report["patches"]), percent(report["share_below"])

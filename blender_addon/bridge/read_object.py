@@ -169,6 +169,7 @@ def _read_data(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
                     sharp_edges=_read_sharp_edges(mesh),
                     shaded_smooth=_is_shaded_smooth(mesh),
                     of_samples=evaluated.type in SAMPLED_TYPES,
+                    single=True,
                 )
     cloud = _evaluated_cloud(evaluated, depsgraph)
     if cloud is None or len(cloud.points) == 0:
@@ -176,7 +177,7 @@ def _read_data(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
             "Expected points, found none; add some, or change the modifiers that remove them"
         )
     points = read_vectors(cloud.attributes["position"].data, "vector")
-    return Shape(points, np.zeros((0, 3), np.int32), read_normals(cloud.attributes))
+    return Shape(points, np.zeros((0, 3), np.int32), read_normals(cloud.attributes), single=True)
 
 
 @contextmanager

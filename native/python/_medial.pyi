@@ -733,9 +733,10 @@ class BallFaces:
         spacing: NDArray[np.float64],
         normals: NDArray[np.float64] | None = None,
         *,
+        rounding: float = 0.0,
         progress: Progress | None = None,
         threads: int = 0,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """The largest balls in the solid that touch its faces at given places.
 
         Parameters
@@ -750,6 +751,8 @@ class BallFaces:
         normals : (n, 3) float64, optional
             Of the faces there: unit, outward. Where one is zero, there is no ball. Without them, the points are moved
             to the smooth surface of their faces, and have its normals.
+        rounding : float
+            How far coordinates may be off.
         progress : Progress, optional
         threads : int
             0: as many as the machine has. The result does not depend on it.
@@ -758,9 +761,33 @@ class BallFaces:
         -------
         diameters : (n,) float64
             Infinite where nothing is opposite.
-        walls : (n,) float64
-            The same between walls: where the ball touches, up to 3 % of its radius, a place whose normal differs by
-            120 degrees or more, the one that does; else infinite.
+        walls, parallel : (n,) float64
+            The same between walls: where the ball touches, as far as the surface is known, a place whose normal
+            differs by 120 degrees or more, or by 165 degrees; else infinite.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+    def rolled_balls(
+        self,
+        points: NDArray[np.float64],
+        face: NDArray[np.int32],
+        spacing: NDArray[np.float64],
+        *,
+        rounding: float = 0.0,
+        progress: Progress | None = None,
+        threads: int = 0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The balls between walls to which those at given places roll, away from what they touch.
+
+        In a square pin they are those of its middle line, at the narrow side of a plate those of the plate. The
+        arguments are those of `inscribed_balls`.
+
+        Returns
+        -------
+        walls, parallel : (n,) float64
+            As those of `inscribed_balls`; infinite where a ball comes to rest between no walls.
 
         Raises
         ------
@@ -1399,29 +1426,6 @@ def surface_patches(
     of_samples : (n, 2) int32
         Of each sample, or of each vertex without samples: its patch and -1; both patches, lower first, where two meet;
         twice -1 where more meet, and on no triangle. Samples that close openings have one more patch.
-
-    Raises
-    ------
-    InvalidInputError
-    """
-
-def spread_lengths(
-    lengths: NDArray[np.float64],
-    own: NDArray[np.float64],
-    points: NDArray[np.float64],
-    edges: NDArray[np.int32],
-) -> NDArray[np.float64]:
-    """(n,) float64: lengths with those of the nearest points, along edges, where they are infinite.
-
-    A length reaches points up to twice itself away, and four times where `own` is no larger. Where none does, the
-    largest of `own` nearby counts.
-
-    Parameters
-    ----------
-    lengths, own : (n,) float64
-    points : (n, 3) float64
-    edges : (e, 2) int32
-        Rows of the points.
 
     Raises
     ------

@@ -15,7 +15,6 @@
 #include "contact/inscribed_balls.h"
 #include "docstrings.h"
 #include "inside/surface.h"
-#include "thickness/extrapolation.h"
 
 namespace medial::python {
 namespace {
@@ -100,48 +99,58 @@ py::tuple creases_of(const Faces& faces) {
                         array_of<int32_t>(std::move(corners)));
 }
 
+// Places on faces, as they come from Python.
+struct GivenPlaces {
+  GivenPlaces(const Faces& faces, const py::object& points, const py::object& face,
+              const py::array_t<double, py::array::c_style>& spacing, const py::object& normals,
+              double rounding)
+      : rows(points, "points"),
+        places{rows.span(),
+               ids_of(face, "face"),
+               {spacing.data(), static_cast<size_t>(spacing.size())},
+               {},
+               rounding} {
+    if (!normals.is_none()) places.normals = directions.emplace(normals, "normals").span();
+    const size_t count = places.points.size();
+    if (directions) require_places(count, places.normals.size(), "normals");
+    require_places(count, places.triangle.size(), "face");
+    require_places(count, places.spacing.size(), "spacing");
+    require_finite(places.points, "point");
+    require_faces(places.triangle, faces.triangles());
+  }
+  Points rows;
+  std::optional<Points> directions;
+  FacePlaces places;
+};
+
 py::tuple balls_in_faces(const Faces& faces, const py::object& points, const py::object& face,
                          const py::array_t<double, py::array::c_style>& spacing,
-                         const py::object& normals, Progress* progress, int threads) {
-  const Points rows(points, "points");
-  std::optional<Points> directions;
-  if (!normals.is_none()) directions.emplace(normals, "normals");
-  FacePlaces places{
-      rows.span(), ids_of(face, "face"), {spacing.data(), static_cast<size_t>(spacing.size())}};
-  if (directions) places.normals = directions->span();
-  const size_t count = places.points.size();
-  if (directions) require_places(count, places.normals.size(), "normals");
-  require_places(count, places.triangle.size(), "face");
-  require_places(count, places.spacing.size(), "spacing");
+                         const py::object& normals, double rounding, Progress* progress,
+                         int threads) {
+  const GivenPlaces given(faces, points, face, spacing, normals, rounding);
   const Run run{thread_count(thread_argument(threads)), progress};
   InscribedBalls found;
   {
     const py::gil_scoped_release release;
-    require_finite(places.points, "point");
-    require_faces(places.triangle, faces.triangles());
-    found = inscribed_balls(faces, places, run);
+    found = inscribed_balls(faces, given.places, run);
   }
   return py::make_tuple(array_of<double>(std::move(found.diameter)),
-                        array_of<double>(std::move(found.wall)));
+                        array_of<double>(std::move(found.wall)),
+                        array_of<double>(std::move(found.parallel)));
 }
 
-py::array spread_lengths(const py::array_t<double, py::array::c_style>& lengths,
-                         const py::array_t<double, py::array::c_style>& own,
-                         const py::object& points, const py::object& edges) {
-  const Points rows(points, "points");
-  const auto places = rows.span();
-  const EdgeRows edge_rows(edges);
-  const auto ends = edge_rows.span();
-  require_places(places.size(), static_cast<size_t>(lengths.size()), "lengths");
-  require_places(places.size(), static_cast<size_t>(own.size()), "own");
-  std::vector<double> values(lengths.data(), lengths.data() + lengths.size());
-  const std::span<const double> own_values(own.data(), static_cast<size_t>(own.size()));
+py::tuple rolled_in_faces(const Faces& faces, const py::object& points, const py::object& face,
+                          const py::array_t<double, py::array::c_style>& spacing, double rounding,
+                          Progress* progress, int threads) {
+  const GivenPlaces given(faces, points, face, spacing, py::none(), rounding);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  InscribedBalls found;
   {
     const py::gil_scoped_release release;
-    for (const auto& [p, q] : ends) require_faces(std::array{p, q}, places.size());
-    spread(values, own_values, places, {ends.begin(), ends.end()}, {thread_count(0)});
+    found = rolled_balls(faces, given.places, run);
   }
-  return array_of<double>(std::move(values));
+  return py::make_tuple(array_of<double>(std::move(found.wall)),
+                        array_of<double>(std::move(found.parallel)));
 }
 
 }  // namespace
@@ -171,9 +180,10 @@ void bind_thickness(py::module_& m) {
       .def("creases", &creases_of, docs::BallFaces_creases)
       .def("inscribed_balls", &balls_in_faces, docs::BallFaces_inscribed_balls, py::arg("points"),
            py::arg("face"), py::arg("spacing"), py::arg("normals") = py::none(), py::kw_only(),
+           py::arg("rounding") = 0.0, py::arg("progress") = nullptr, py::arg("threads") = 0)
+      .def("rolled_balls", &rolled_in_faces, docs::BallFaces_rolled_balls, py::arg("points"),
+           py::arg("face"), py::arg("spacing"), py::kw_only(), py::arg("rounding") = 0.0,
            py::arg("progress") = nullptr, py::arg("threads") = 0);
-  m.def("spread_lengths", &spread_lengths, docs::spread_lengths, py::arg("lengths"), py::arg("own"),
-        py::arg("points"), py::arg("edges"));
   m.def("nearest", &nearest_rows, docs::nearest, py::arg("sites"), py::arg("queries"));
 }
 

@@ -130,9 +130,9 @@ def test_no_value_exceeds_what_rays_find(medial, mesh, limit, edges):
     assert isinstance(found.chosen, MeasuredFaces)
     assert_below_rays(found, medial)
     parts = find_thin_parts(found, limit)
-    thin = found.of_triangles < limit - found.slack
+    thin = found.drawn < limit - found.slack
     np.testing.assert_array_equal(parts.patch_of_triangles >= 0, thin)
-    assert parts.area == pytest.approx(found.areas[thin].sum())
+    assert parts.area == pytest.approx(found.areas_below(limit)[thin].sum())
 
 
 @pytest.mark.parametrize("seed", repeats(12))
@@ -167,7 +167,7 @@ def test_a_fin_is_seen(tmp_path, width, thickness):
     found = measured(points, triangles, limit=0.02)
     parts = find_thin_parts(found, 0.02)
     table = export_thickness(found, parts, tmp_path / "fin.csv").read_text().split("\n")[1:-1]
-    lengths = np.array([float(row.split(",")[-1]) for row in table if not row.startswith("-1,")])
+    lengths = np.array([float(row.split(",")[4]) for row in table if not row.startswith("-1,")])
     assert lengths[8:] == pytest.approx(np.full(8, thickness), rel=0.01)
     assert (lengths[:8] > 0.5).all()
     on_fin = triangles.min(axis=1) >= 8
@@ -183,6 +183,15 @@ def test_a_fin_is_seen(tmp_path, width, thickness):
     height = corners["place"][:, 2]
     assert len(corners) and f"element face {len(faces)}\n".encode() in head
     assert (height > 0.95).all() and (corners["colour"][height > 1.02, 0] > 200).mean() > 0.9
+
+
+def test_no_sample_of_a_patch_is_thicker_than_the_patch():
+    """Where only rays find a wall, its samples have more than its minimum."""
+    points, triangles = cube_with_fin(0.2, 0.0005)
+    found = measured(points, triangles[1:])
+    patches = find_thin_parts(found, 0.02).patches
+    assert len(found.walls.distance) and patches
+    assert all(0.0 < patch.lowest <= patch.minimum < 0.02 for patch in patches)
 
 
 @pytest.mark.parametrize(("width", "thickness"), [f for f in FINS if f[0] >= 0.1])
@@ -213,7 +222,13 @@ def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
     parts = find_thin_parts(found, 0.02)
     place = found.points[found.triangles].mean(axis=1)
     thin = parts.patch_of_triangles >= 0
-    assert place[thin, 0].min() > 0.9 and found.areas[thin].sum() == pytest.approx(1.0, rel=0.05)
+    assert parts.minimum == pytest.approx(0.002, rel=1e-6)
+    # The ends have two middle lines where balls come to rest, 0.2 high up to x = 0.8 and 0.001 high from x = 1 on. Low
+    # places from x = 0.8 on are nearer to the second one; as few places lie on the first, this begins before.
+    assert (
+        place[thin, 0].min() > 0.7 and place[np.isfinite(found.of_triangles) & thin, 0].min() > 0.95
+    )
+    assert parts.area == pytest.approx(1.0, rel=0.05)
     assert found.of_vertices[[1, 2, 7, 8]] == pytest.approx(np.full(4, 0.002), rel=0.01)
     assert (found.of_vertices[[0, 5, 6, 11]] > 0.3).all()
 

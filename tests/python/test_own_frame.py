@@ -139,7 +139,9 @@ def test_thickness(name, sizes, tmp_path):
 def test_thicken(name, sizes, tmp_path):
     work = ThickenWork(Settings(smooth=False), ThickenSettings(limit=0.1, subdivide=True))
     (one, near), (other, there) = near_and_far(work, name, 4, sizes, tmp_path / "thick.off")
-    assert_alike(one, other, ["minimum", "minimum_before", "share_below"], 1e-5)
+    assert_alike(one, other, ["minimum", "minimum_before"], 1e-5)
+    # Which of two walls as near as each other fills in a place depends on the last bit.
+    assert_alike(one, other, ["share_below"], 1e-4)
     assert_same_places(near, there, 1e-5)
 
 

@@ -38,6 +38,8 @@ class ImportedPoints:
         Rows of `vertices`.
     warnings : tuple of str
         Each sentence names a part of the file that was not read.
+    single : bool
+        The file has the coordinates as float32.
     """
 
     vertices: NDArray[np.float64]
@@ -45,6 +47,7 @@ class ImportedPoints:
     face_offsets: NDArray[np.int32] = field(default_factory=_no_offsets)
     face_vertices: NDArray[np.int32] = field(default_factory=_no_vertices)
     warnings: tuple[str, ...] = ()
+    single: bool = False
 
     @property
     def faces(self) -> int:

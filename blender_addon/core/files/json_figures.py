@@ -6,6 +6,6 @@ from __future__ import annotations
 import math
 
 
-def known(figure: float) -> float | None:
-    """Return a figure, or None where it is infinite or not a number."""
-    return figure if math.isfinite(figure) else None
+def known(figure: float | None) -> float | None:
+    """Return a figure, or None where there is none, or it is infinite or not a number."""
+    return figure if figure is not None and math.isfinite(figure) else None

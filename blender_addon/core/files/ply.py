@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import io
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -96,7 +96,8 @@ def _found(tables: dict[str, _Table], name: str) -> ImportedPoints:
     points = _columns(vertex, _POSITION)
     normals = _columns(vertex, _NORMAL) if set(_NORMAL) <= vertex.columns.keys() else None
     sizes, corners = (None, None) if face is None else (face.sizes, face.corners)
-    return checked(name, points, normals, sizes, corners)
+    single = all(vertex.columns[axis].dtype.itemsize <= 4 for axis in _POSITION)
+    return replace(checked(name, points, normals, sizes, corners), single=single)
 
 
 def _columns(table: _Table, names: tuple[str, ...]) -> NDArray[np.float64]:

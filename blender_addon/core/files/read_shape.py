@@ -32,4 +32,5 @@ def read_shape(
         limit.used(faces=False).check(points_of_cloud(path))
     found = import_points(path)
     triangles = polygon_triangles(found.vertices, found.face_offsets, found.face_vertices)
-    return Shape(found.vertices, triangles, found.normals), found.warnings
+    shape = Shape(found.vertices, triangles, found.normals, single=found.single)
+    return shape, found.warnings

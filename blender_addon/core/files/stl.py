@@ -50,7 +50,8 @@ def read_stl(path: str | os.PathLike) -> ImportedPoints:
     points, rows = _merged(corners.astype(np.float64))
     found = checked(name, points, None, np.full(len(rows) // 3, 3), rows)
     left = (f"Left out {beyond:,} bytes after the triangles",) if beyond else ()
-    return replace(found, warnings=found.warnings + left)
+    # Its text comes from programs that store float32, too.
+    return replace(found, warnings=found.warnings + left, single=True)
 
 
 def _read_text(data: bytes, name: str) -> NDArray[np.float64]:

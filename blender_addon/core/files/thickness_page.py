@@ -91,6 +91,8 @@ def page_of(
 
 def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
     cells = {"Minimum": _length(found.minimum, unit)}
+    if found.between_parallel is not None:
+        cells["Between nearly parallel walls"] = _length(found.between_parallel, unit)
     if parts.limit > 0.0:
         cells["Limit"] = _length(parts.limit, unit)
         cells["Thinner than the limit"] = (

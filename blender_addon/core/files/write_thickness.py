@@ -79,11 +79,13 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
     """Return the content of `.json`: lengths are in `unit`, areas in its square; None means that there is no length."""
     place = _mover(found)
     return {
-        "minimum": known(found.minimum),
+        "minimum": known(parts.minimum),
+        "minimum_parallel": known(found.between_parallel),
         "limit": parts.limit,
         "unit": unit or None,
         "area_below": parts.area,
         "share_below": parts.share,
+        "share_of": "surface",
         "share_unmeasured": found.unmeasured,
         "between": found.settings.between.name.lower(),
         "patches": [
@@ -113,18 +115,21 @@ def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.flo
 
 
 def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
-    stream.write(b"vertex,x,y,z,thickness\n")
+    stream.write(b"vertex,x,y,z,thickness,filled\n")
     beside = _beside_vertices(found)
     points = _mover(found)(np.concatenate((found.shape.points, found.points[beside])))
     lengths = np.concatenate((found.of_vertices, found.lengths[beside]))
+    filled = np.append(found.are_filled[found.row_of_vertices], found.are_filled[beside])
     vertices = np.arange(len(points))
     vertices[len(found.shape.points) :] = -1
     for start in range(0, len(points), _CHUNK):
         part = slice(start, start + _CHUNK)
-        rows = np.column_stack([points[part], lengths[part]]).tolist()
+        rows = np.column_stack([points[part], lengths[part], filled[part]]).tolist()
         text = "".join(
-            f"{vertex},{x:.17g},{y:.17g},{z:.17g},{length:.17g}\n"
-            for vertex, (x, y, z, length) in zip(vertices[part].tolist(), rows, strict=True)
+            f"{vertex},{x:.17g},{y:.17g},{z:.17g},{length:.17g},{of_others:.0f}\n"
+            for vertex, (x, y, z, length, of_others) in zip(
+                vertices[part].tolist(), rows, strict=True
+            )
         )
         stream.write(text.encode("ascii"))
 

@@ -50,6 +50,9 @@ class Shape:
         How far outside of the surface that is meant the faces lie: those of a wrap do.
     far : float
         The largest coordinate before the shape was moved to its own frame; 0.0 where it was not.
+    single : bool or None
+        Whether coordinates were rounded to float32, as all of Blender's and those of .stl files are; None where only
+        the numbers can tell.
     """
 
     points: NDArray[np.float64]
@@ -63,6 +66,7 @@ class Shape:
     reading: NDArray[np.uint8] | None = None
     offset: float = 0.0
     far: float = 0.0
+    single: bool | None = None
 
     def has_vertices(self, count: int) -> bool:
         """Whether the points may be `count` vertices of an object, as those of a wrap never are."""

@@ -67,8 +67,11 @@ def surface_normals(
     if chosen.sides.source in (SidesFrom.TIGHT_COCONE, SidesFrom.POLES):
         return _of_triangles(samples.points, surface, sharp_angle, "the reconstructed surface")
     if samples.kinds is not None and given is not None:
-        at_edge = samples.kinds <= int(native.load().SampleKind.SHARP)
-        return SurfaceNormals(given, at_edge, _sentence("the samples of the faces"))
+        kinds = native.load().SampleKind
+        # An opening has no wall, so samples that close it have no normal: no ball between walls touches them.
+        normals = np.where(samples.kinds[:, None] == int(kinds.OPENING), 0.0, given)
+        at_edge = samples.kinds <= int(kinds.SHARP)
+        return SurfaceNormals(normals, at_edge, _sentence("the samples of the faces"))
     if chosen.sides.source is SidesFrom.NORMALS and given is not None:
         nowhere = np.zeros(len(samples.points), bool)
         return SurfaceNormals(given, nowhere, _sentence("the points"))

@@ -44,8 +44,11 @@ class MeasuredSurface:
         The shortest way to an opposite wall that was found at each triangle itself; infinite where there is none.
     face_of_triangles : (f,) int32 or None
         The face of the shape in which each triangle lies; None where they lie in none.
-    in_middles : (f,) float64 or None
-        By the faces, the length in the middle of a triangle all of whose corners lie on edges; else infinite.
+    between_walls, between_parallel : (f,) float64 or None
+        By the faces, the least ball between walls that touches each triangle, and between walls that are nearly
+        parallel; infinite where there is none.
+    at_rest : (f,) bool or None
+        By the faces, whether that ball only comes to rest against the triangle, so that no area of it is between walls.
     """
 
     points: NDArray[np.float64]
@@ -55,7 +58,9 @@ class MeasuredSurface:
     faces: NDArray[np.int32] | None
     at_most: NDArray[np.float64]
     face_of_triangles: NDArray[np.int32] | None = None
-    in_middles: NDArray[np.float64] | None = None
+    between_walls: NDArray[np.float64] | None = None
+    between_parallel: NDArray[np.float64] | None = None
+    at_rest: NDArray[np.bool_] | None = None
 
 
 def bounded(

@@ -108,9 +108,13 @@ def close_walls(
     )
 
 
-def rounding_of(points: NDArray[np.float64]) -> float:
-    """The rounding of coordinates that may once have been float32, as all of Blender's are."""
-    return 4 * float(np.finfo(np.float32).eps) * float(np.abs(points).max(initial=0.0))
+def rounding_of(shape: Shape) -> float:
+    """How far a length may be off because coordinates were rounded, and by the arithmetic with them."""
+    single = shape.single
+    if single is None:  # coordinates that were moved to their own frame were none
+        single = not shape.far and np.array_equal(shape.points, shape.points.astype(np.float32))
+    unit = 4 * np.finfo(np.float32).eps if single else 16 * np.finfo(np.float64).eps
+    return float(unit) * max(shape.far, float(np.abs(shape.points).max(initial=0.0)))
 
 
 def _known(shape: Shape, walls: Walls, overlapping: bool) -> NDArray[np.intp]:
@@ -128,7 +132,7 @@ def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> NDArray[
     places, way = walls.points[rows], walls.distance[rows]
     normals, _ = unit_normals(shape.points[shape.triangles[walls.faces[rows]]])
     beside = _BESIDE * way[:, None] * normals
-    through = way > rounding_of(shape.points)
+    through = way > rounding_of(shape)
     with native.own_errors() as module:
         for ends in (places, places - way[:, None] * normals):
             through &= module.buried(ends, beside, 1.0, shape.points, shape.triangles) == 0

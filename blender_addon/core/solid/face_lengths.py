@@ -18,11 +18,10 @@ from ..samples.nearness import same_place
 from ..samples.outward_faces import are_left_out
 from ..samples.sample_spacing import first_pass
 from ..samples.sharp_angle import sharp_angle_of
-from ..samples.surface_normals import mean_normals
 from ..samples.triangles import unit_normals
 from ..settings import Between, Edges, Noise, SamplingMode, SidesFrom
-from ..small_matrices import dot
 from .bounded_lengths import MeasuredSurface
+from .close_walls import rounding_of
 from .fine_faces import FineFaces, coarse_faces, cut_faces
 
 if TYPE_CHECKING:
@@ -33,13 +32,10 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
     from ..settings import Settings, ThicknessSettings
 
-# Edges between points whose normals differ by 120 degrees or more lead round a wall, and not along it.
-_WALL = -0.5  # the cosine of 120 degrees
 # The mesh itself shows its thickness where its edges are at most this number of spacings long. If they are longer on
 # a larger share of the area, faces are cut until no edge is longer than the other number of spacings.
 _COARSE, _SOME, _FINE = 4.0, 0.1, 1.5
 _REFLEX, _CONVEX = 1, 2  # kinds of edges
-_ASIDE = 1e-3  # rays begin beside the edges of triangles, by this share of the way to the middle
 _BURIED = 1e-6  # a larger share of the area that bounds nothing calls for samples
 
 
@@ -72,12 +68,13 @@ class _Balls:
 
     Parameters
     ----------
-    any, wall : (k,) float64
-        The diameter of the ball, and the same if it lies between walls; else infinite.
+    any, wall, parallel : (k,) float64
+        The diameter of the ball, the same if it lies between walls, and if these are nearly parallel; else infinite.
     """
 
     any: NDArray[np.float64]
     wall: NDArray[np.float64]
+    parallel: NDArray[np.float64]
 
 
 def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> bool:
@@ -117,9 +114,11 @@ def lengths_by_faces(
     """
     row = first_rows(shape.points)
     triangles = np.ascontiguousarray(row[shape.triangles].astype(np.int32))
+    # Far from the origin differences lose what sums need not, so the solid comes to the origin.
+    middle = (shape.points.min(axis=0) + shape.points.max(axis=0)) / 2.0
     with native.own_errors() as module:
         balls_in = module.BallFaces(
-            shape.points,
+            shape.points - middle,
             triangles,
             sharp_angle=sharp_angle_of(shape, settings),
             sharp_edges=shape.sharp_edges,
@@ -137,24 +136,25 @@ def lengths_by_faces(
     on_edge = at_edge.copy()
     on_edge[_ends(fine, _REFLEX)] = True
     bare = np.flatnonzero(on_edge[fine.triangles].all(axis=1))
-    balls = _balls(balls_in, fine, at_edge, bare, progress)
-    lengths, measured = _filled(shape, fine, at_edge, bare, balls, wanted.edges)
-    count = len(fine.points)
-    at_most, in_middles = np.full((2, len(fine.triangles)), np.inf)
-    at_most[bare], in_middles[bare] = balls.wall[count:], lengths[count:]
+    places = _Places(shape, balls_in, fine, bare, middle)
+    balls = places.balls(at_edge, progress)
+    filled = _Filled(places, balls, on_edge, wanted.edges)
     faces = np.full(len(fine.points), -1, np.int32)
     faces[fine.triangles] = fine.faces[:, None]
+    count = len(fine.points)
     surface = MeasuredSurface(
         points=fine.points,
         triangles=shape.triangles if fine is coarse else fine.triangles,
-        lengths=lengths[:count],
+        lengths=filled.lengths[:count],
         at_edge=on_edge,
         faces=faces,
-        at_most=at_most,
+        at_most=np.full(len(fine.triangles), np.inf),
         face_of_triangles=fine.faces,
-        in_middles=in_middles,
+        between_walls=filled.of_triangles,
+        between_parallel=filled.parallel,
+        at_rest=filled.at_rest,
     )
-    return surface, measured[:count], row, fine is not coarse
+    return surface, filled.measured[:count], row, fine is not coarse
 
 
 def first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -189,113 +189,202 @@ def _ends(fine: FineFaces, kind: int) -> NDArray[np.int32]:
     return ends.ravel()
 
 
-def _balls(
-    balls_in: Any,
-    fine: FineFaces,
-    at_edge: NDArray[np.bool_],
-    bare: NDArray[np.intp],
-    progress: Progress,
-) -> _Balls:
-    """Measure at each point once, at a point on an edge where the solid is not convex on each of its faces."""
-    count, corners = len(fine.points), fine.points[fine.triangles]
-    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
-    point, triangle = fine.triangles.ravel(), np.repeat(np.arange(len(fine.triangles)), 3)
-    reflex = np.zeros(count, bool)
-    reflex[_ends(fine, _REFLEX)] = True
-    once = np.zeros(len(point), bool)
-    once[np.unique(point, return_index=True)[1]] = True
-    some = np.flatnonzero(~at_edge[point] & (once | reflex[point]))
-    places = np.concatenate((fine.points[point[some]], corners[bare].mean(axis=1)))
-    rows = np.concatenate((triangle[some], bare))
-    with native.own_errors():
-        diameters, walls = balls_in.inscribed_balls(
-            places, fine.faces[rows], sides[rows], progress=progress.part()
-        )
-    of_any, of_wall = np.full((2, count + len(bare)), np.inf)
-    at = np.concatenate((point[some], count + np.arange(len(bare))))
-    np.minimum.at(of_any, at, diameters)
-    least = diameters == of_any[at]  # of the faces that meet at the point
-    of_wall[at[least]] = walls[least]
-    return _Balls(of_any, of_wall)
+class _Places:
+    """Where balls are looked for: the corners of pieces, and the middles of those that have all corners on edges."""
+
+    def __init__(
+        self,
+        shape: Shape,
+        balls_in: Any,
+        fine: FineFaces,
+        bare: NDArray[np.intp],
+        middle: NDArray[np.float64],
+    ) -> None:
+        self._balls_in, self._middle, self._rounding = balls_in, middle, rounding_of(shape)
+        self.fine, self.bare = fine, bare
+        corners = fine.points[fine.triangles]
+        self._sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
+        self.points = np.concatenate((fine.points, corners[bare].mean(axis=1)))
+        # Each place, some of them several times, with a piece in which it lies.
+        self.place = np.append(fine.triangles.ravel(), len(fine.points) + np.arange(len(bare)))
+        self.piece = np.append(np.repeat(np.arange(len(fine.triangles)), 3), bare)
+
+    def balls(self, at_edge: NDArray[np.bool_], progress: Progress) -> _Balls:
+        """Measure at each place once, at one on an edge where the solid is not convex on each of its faces."""
+        several = np.zeros(len(self.points), bool)
+        several[_ends(self.fine, _REFLEX)] = True
+        once = np.zeros(len(self.place), bool)
+        once[np.unique(self.place, return_index=True)[1]] = True
+        convex = np.append(at_edge, np.zeros(len(self.bare), bool))
+        some = np.flatnonzero(~convex[self.place] & (once | several[self.place]))
+        at = self.place[some]
+        with native.own_errors():
+            found = self._balls_in.inscribed_balls(
+                *self._given(some), rounding=self._rounding, progress=progress.part()
+            )
+        of_any, of_wall, of_parallel = np.full((3, len(self.points)), np.inf)
+        np.minimum.at(of_any, at, found[0])
+        least = found[0] == of_any[at]  # of the faces that meet at the place
+        of_wall[at[least]], of_parallel[at[least]] = found[1][least], found[2][least]
+        return _Balls(of_any, of_wall, of_parallel)
+
+    def rolled(self, some: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The balls between walls, and nearly parallel ones, to which those at some of the rows of `place` roll."""
+        with native.own_errors():
+            walls, parallel = self._balls_in.rolled_balls(
+                *self._given(some), rounding=self._rounding
+            )
+        return walls, parallel
+
+    def _given(self, some: NDArray[np.intp]) -> tuple[NDArray[Any], ...]:
+        pieces = self.piece[some]
+        points = self.points[self.place[some]] - self._middle
+        return points, self.fine.faces[pieces], self._sides[pieces]
 
 
-def _filled(
-    shape: Shape,
-    fine: FineFaces,
-    at_edge: NDArray[np.bool_],
-    bare: NDArray[np.intp],
-    balls: _Balls,
-    edges: Edges,
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """The lengths of points and middles, those of the nearest walls where they have none, and which were measured."""
+class _Filled:
+    """The lengths of places, for colours, and those of triangles, for figures.
+
+    The length of a triangle is that of a ball between walls that touches it, and of nothing else. On a sheet where no
+    place lies between walls, as on a square pin or the narrow side of a plate, it is the one at which its largest balls
+    come to rest when they roll. A body without any walls, as a tetrahedron, is as thick as its largest ball.
+
+    Other places are filled in: they take the nearest length of their sheet, or its largest ball where it has none, and
+    no less than their own ball.
+
+    Parameters
+    ----------
+    lengths : (k,) float64
+        Of the places.
+    measured : (k,) bool
+    of_triangles : (f,) float64
+        The least length of each triangle; infinite where there is none.
+    parallel : (f,) float64
+        The same between walls that are nearly parallel.
+    at_rest : (f,) bool
+        That ball came to rest against the triangle.
+    """
+
+    def __init__(
+        self, places: _Places, balls: _Balls, on_edge: NDArray[np.bool_], edges: Edges
+    ) -> None:
+        self._places = places
+        self._on_edge = np.append(on_edge, np.zeros(len(places.bare), bool))
+        values = balls.any if edges is Edges.BALL else balls.wall
+        self._own = np.where(np.isfinite(balls.any), balls.any, 0.0)
+        self.measured = np.isfinite(values)
+        self.of_triangles = self._least(values)
+        self.parallel = self._least(balls.parallel)
+        self.lengths = values
+        self.at_rest = np.zeros(len(self.of_triangles), bool)
+        if self.measured.all():
+            return
+        sheet = _joined(places.fine, across=0)
+        sources = self._sources(sheet)
+        if edges is not Edges.GREY:
+            self._fill(sheet, sources)
+
+    def _least(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(f,) the least of values at the corners and middles of triangles; on an edge they are of other faces, too."""
+        place, piece = self._places.place, self._places.piece
+        least = np.full(len(self._places.fine.triangles), np.inf)
+        inside = ~self._on_edge[place]
+        np.minimum.at(least, piece[inside], values[place[inside]])
+        return least
+
+    def _sources(self, sheet: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The length that others in a sheet may take from each row of `place`; infinite where there is none."""
+        place, piece = self._places.place, self._places.piece
+        known = ~self._on_edge[place] & self.measured[place]
+        found = np.where(known, self.lengths[place], np.inf)
+        start = np.flatnonzero(_without(known, sheet[piece]) & self._are_largest(sheet))
+        found[start], parallel = self._places.rolled(start)
+        np.minimum.at(self.of_triangles, piece[start], found[start])
+        self.at_rest[piece[start]] = True
+        np.minimum.at(self.parallel, piece[start], parallel)
+        body = _joined(self._places.fine, across=_CONVEX)
+        alone = _without(np.isfinite(found), body[piece])
+        largest = self._largest(body)
+        self.of_triangles[piece[alone]] = largest[alone]
+        self.at_rest[piece[alone]] = False
+        found[alone] = largest[alone]
+        return found
+
+    def _largest(self, group: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The diameter of the largest ball in the group of pieces of each row of `place`."""
+        place, piece = self._places.place, self._places.piece
+        largest = np.zeros(len(group))
+        np.maximum.at(largest, group[piece], self._own[place])
+        return largest[group[piece]]
+
+    def _fill(self, sheet: NDArray[np.int64], sources: NDArray[np.float64]) -> None:
+        place, piece = self._places.place, self._places.piece
+        nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(sources)))
+        known = np.isfinite(away)
+        of_sheet = np.where(known, sources[nearest], self._largest(sheet))
+        of_sheet = np.maximum(of_sheet, self._own[place])
+        order = np.lexsort((of_sheet, away, place))
+        first = order[np.unique(place[order], return_index=True)[1]]
+        filled = np.full(len(self.lengths), np.inf)
+        filled[place[first]] = of_sheet[first]
+        self.lengths = np.where(self.measured, self.lengths, filled)
+
+    def _are_largest(self, sheet: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Whether no neighbour of a place has a larger ball, by the row of `place`."""
+        place, piece = self._places.place, self._places.piece
+        own = np.where(self._on_edge, 0.0, self._own)
+        of_pieces = np.zeros(len(sheet))
+        np.maximum.at(of_pieces, piece, own[place])
+        beside = np.zeros(len(own))
+        np.maximum.at(beside, place, of_pieces[piece])
+        first = np.zeros(len(place), bool)
+        first[np.unique(place, return_index=True)[1]] = True
+        return np.asarray(first & (own[place] > 0.0) & (own[place] >= beside[place]))
+
+    def _nearest(
+        self, sheet: NDArray[np.int64], sources: NDArray[np.intp]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """The nearest of some rows of `place` in the same sheet, and how far it is; infinite where there is none.
+
+        Sheets are laid side by side, so far apart that the nearest row is one of the same sheet.
+        """
+        places, place = self._places.points, self._places.place
+        if not len(sources):
+            return np.zeros(len(place), np.intp), np.full(len(place), np.inf)
+        low = places.min(axis=0)
+        apart = 2.0 * float(np.linalg.norm(places.max(axis=0) - low))
+        points = (places - low)[place]
+        points[:, 0] += apart * np.unique(sheet, return_inverse=True)[1].ravel()
+        with native.own_errors() as module:
+            nearest = sources[module.nearest(points[sources], points)]
+        away = np.linalg.norm(places[place[nearest]] - places[place], axis=1)
+        return nearest, np.where(sheet[nearest] == sheet, away, np.inf)
+
+
+def _without(known: NDArray[np.bool_], group: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether nothing in the group of each row is known."""
+    some = np.zeros(int(group.max(initial=-1)) + 1, bool)
+    some[group[known]] = True
+    return ~some[group]
+
+
+def _joined(fine: FineFaces, across: int) -> NDArray[np.int64]:
+    """(f,) the lowest row of the triangles that are joined to each across edges of kinds up to one."""
     count = len(fine.points)
-    values = balls.any if edges is Edges.BALL else balls.wall
-    measured = np.isfinite(values)
-    if edges is Edges.GREY or measured.all():
-        return values, measured
-    centres = np.repeat(count + np.arange(len(bare)), 3)
-    ways = np.column_stack((centres, fine.triangles[bare].ravel()))
-    points = np.concatenate((fine.points, fine.points[fine.triangles[bare]].mean(axis=1)))
-    normals, _ = mean_normals(fine.points, fine.triangles)
-    ends = fine.edges()
-    beside = dot(normals[ends[:, 0]], normals[ends[:, 1]]) > _WALL
-    left = ~measured[ends].all(axis=1)
-    ends = np.concatenate((ends[beside & left], ways)).astype(np.int32)
-    edge = np.append(at_edge, np.zeros(len(bare), bool))
-    ways = np.concatenate((ends, ends[:, ::-1]))
-    to, source = ways.T
-    # Where points are farther apart than a plate is thick, its edges have the thickness of the points beside them, and
-    # its narrow sides that of the edges.
-    start = _of_nearest(values, points, ways[edge[to] & ~edge[source]])
-    start = _of_nearest(
-        start, points, ways[~edge[to] & edge[source] & (balls.any[to] <= start[source])]
-    )
-    with native.own_errors() as module:
-        filled = module.spread_lengths(start, balls.any, points, ends)
-    on_edges = ways[edge[to]]
-    while not np.isfinite(filled[edge]).all():
-        before, filled = filled, _of_nearest(filled, points, on_edges)
-        if np.array_equal(before, filled):
-            break
-    own = np.where(np.isfinite(balls.any), balls.any, 0.0)
-    lengths = np.where(measured, values, np.maximum(filled, own))
-    return _below_rays(shape, fine, bare, points, lengths, measured | edge), measured
-
-
-def _of_nearest(
-    values: NDArray[np.float64], points: NDArray[np.float64], ways: NDArray[np.int32]
-) -> NDArray[np.float64]:
-    """(k,) values; those of points without one are that of the nearest of the points to which ways lead from them."""
-    to, source = ways[~np.isfinite(values[ways[:, 0]]) & np.isfinite(values[ways[:, 1]])].T
-    away = np.linalg.norm(points[to] - points[source], axis=1)
-    order = np.lexsort((values[source], away, to))
-    first = order[np.unique(to[order], return_index=True)[1]]
-    values = values.copy()
-    values[to[first]] = values[source[first]]
-    return values
-
-
-def _below_rays(
-    shape: Shape,
-    fine: FineFaces,
-    bare: NDArray[np.intp],
-    points: NDArray[np.float64],
-    lengths: NDArray[np.float64],
-    known: NDArray[np.bool_],
-) -> NDArray[np.float64]:
-    """Lower what was filled in, at points and then at middles, to the way straight through the solid."""
-    triangle = np.full(len(fine.points), -1)
-    triangle[fine.triangles] = np.arange(len(fine.triangles))[:, None]
-    triangle = np.concatenate((triangle, bare))
-    rows = np.flatnonzero(~known & np.isfinite(lengths) & (lengths > 0.0) & (triangle >= 0))
-    if not len(rows):
-        return lengths
-    corners = fine.points[fine.triangles[triangle[rows]]]
-    normals = unit_normals(shape.points[shape.triangles[fine.faces[triangle[rows]]]])[0]
-    places = points[rows]
-    places = places + _ASIDE * (corners.mean(axis=1) - places)
-    with native.own_errors() as module:
-        ways = module.wall_distances(places, normals, lengths[rows], shape.points, shape.triangles)
-    lengths = lengths.copy()
-    lengths[rows] = np.minimum(lengths[rows], ways)
-    return lengths
+    tails = fine.triangles.astype(np.int64)
+    heads = np.roll(tails, -1, axis=1)
+    keys = (np.minimum(tails, heads) * count + np.maximum(tails, heads)).ravel()
+    open_to = np.flatnonzero((fine.kinds <= across).ravel())
+    order = open_to[np.argsort(keys[open_to], kind="stable")]
+    same = keys[order[:-1]] == keys[order[1:]]
+    a, b = order[:-1][same] // 3, order[1:][same] // 3
+    lowest = np.arange(len(tails))
+    while True:
+        before = lowest
+        lowest = lowest.copy()
+        least = np.minimum(before[a], before[b])
+        for side in (before[a], before[b], a, b):
+            np.minimum.at(lowest, side, least)
+        lowest = lowest[lowest]
+        if np.array_equal(lowest, before):
+            return lowest

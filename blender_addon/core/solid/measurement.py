@@ -102,25 +102,38 @@ class Measurement:
 
     @cached_property
     def of_triangles(self) -> NDArray[np.float64]:
-        """(f,) the median of the lengths at the corners, so that no single sample decides.
+        """(f,) by the faces the least length at each triangle.
 
-        Where one or two corners lie on an edge, which belongs to two faces, it is no less than the largest length at
-        the other corners. It is no more than the way to a wall that rays found there. By the faces, it is that length,
-        and where all corners lie on edges, that of the middle.
+        By the axis it is the median of the lengths at the corners, so that no single sample decides. Where one or two
+        corners lie on an edge, which belongs to two faces, it is no less than the largest length at the other corners.
+        It is no more than the way to a wall that rays found there.
         """
+        if self.surface.between_walls is not None:
+            return self.surface.between_walls
         values, on_edge = self.lengths[self.triangles].T, self.at_edge[self.triangles].T
         a, b, c = values
         median = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
         mixed = on_edge.any(axis=0) & ~on_edge.all(axis=0)
         others = np.where(on_edge[:, mixed], -np.inf, values[:, mixed]).max(axis=0)
-        by_faces = isinstance(self.chosen, MeasuredFaces)
-        median[mixed] = others if by_faces else np.maximum(median[mixed], others)
+        median[mixed] = np.maximum(median[mixed], others)
         if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
             median[on_edge.all(axis=0)] = np.inf
-        middles = self.surface.in_middles
-        if middles is not None:
-            return np.where(np.isfinite(middles), middles, median)
         return np.minimum(median, self.surface.at_most)
+
+    @cached_property
+    def of_walls(self) -> NDArray[np.float64]:
+        """(f,) the same without balls that only come to rest against a triangle, which moves none of its ends apart."""
+        at_rest = self.surface.at_rest
+        return (
+            self.of_triangles if at_rest is None else np.where(at_rest, np.inf, self.of_triangles)
+        )
+
+    @cached_property
+    def drawn(self) -> NDArray[np.float64]:
+        """(f,) the lengths that colours show: those of triangles, by the faces filled in where they have none."""
+        filled = self.lengths[self.triangles].max(axis=1)
+        by_axis = self.surface.between_walls is None
+        return np.where(np.isfinite(self.of_triangles) | by_axis, self.of_triangles, filled)
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
@@ -128,10 +141,29 @@ class Measurement:
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
         return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
 
+    def areas_below(self, limit: float) -> NDArray[np.float64]:
+        """(f,) the part of the area of each triangle that is drawn thinner than a limit.
+
+        By the faces each corner stands for as much of its triangle as any other, but those on edges for none.
+        """
+        thin = self.drawn < limit - self.slack
+        if self.surface.between_walls is None:
+            return self.areas * thin
+        inside = ~self.at_edge[self.triangles]
+        below = inside & (self.lengths[self.triangles] < limit - self.slack)
+        count = inside.sum(axis=1)
+        return self.areas * np.where(count, below.sum(axis=1) / np.maximum(count, 1), thin)
+
     @cached_property
     def minimum(self) -> float:
         """The smallest length of all triangles; infinite where there is none."""
         return float(self.of_triangles.min(initial=np.inf))
+
+    @cached_property
+    def between_parallel(self) -> float | None:
+        """The smallest length between walls that are nearly parallel; None where the axis measures, which has none."""
+        found = self.surface.between_parallel
+        return None if found is None else float(found.min(initial=np.inf))
 
     @cached_property
     def thinnest_place(self) -> NDArray[np.float64]:
@@ -149,25 +181,39 @@ class Measurement:
             return 0.0
         if not len(self.triangles):
             return 1.0
-        return float(self.areas[~np.isfinite(self.of_triangles)].sum() / self.areas.sum())
+        return float(self.areas[~np.isfinite(self.drawn)].sum() / self.areas.sum())
 
     @cached_property
     def slack(self) -> float:
         """The rounding of the coordinates: a length is below a limit only if it differs by more than this."""
-        return rounding_of(self.points)
+        return rounding_of(self.shape)
+
+    @cached_property
+    def row_of_vertices(self) -> NDArray[np.integer]:
+        """(v,) the point of the measured surface that stands for each vertex of the shape: itself, or the nearest."""
+        if isinstance(self.chosen, MeasuredFaces):
+            return self.chosen.row
+        samples = self.chosen.samples
+        if self.samples == len(self.shape.points) and samples.kinds is None:
+            return np.arange(self.samples)
+        with native.own_errors() as module:
+            return np.asarray(module.nearest(samples.points, self.shape.points))
 
     @cached_property
     def of_vertices(self) -> NDArray[np.float64]:
         """(v,) the length at each vertex of the shape, taken from the nearest sample and from walls that rays found."""
-        if isinstance(self.chosen, MeasuredFaces):
-            return self.lengths[self.chosen.row]
-        samples = self.chosen.samples
-        if self.samples == len(self.shape.points) and samples.kinds is None:
-            return self.lengths[: self.samples]
-        with native.own_errors() as module:
-            nearest = module.nearest(samples.points, self.shape.points)
-        lengths, way = self.lengths[nearest], self.walls.at_vertices
+        lengths, way = self.lengths[self.row_of_vertices], self.walls.at_vertices
+        samples = None if isinstance(self.chosen, MeasuredFaces) else self.chosen.samples
+        if samples is None or (len(samples.points) == len(lengths) and samples.kinds is None):
+            return lengths
         return np.where(is_shorter(way, lengths), way, lengths)
+
+    @cached_property
+    def are_filled(self) -> NDArray[np.bool_]:
+        """(n,) whether the length of each point was measured elsewhere."""
+        measured = np.ones(len(self.points), bool)
+        measured[: len(self.measured)] = self.measured
+        return np.isfinite(self.lengths) & ~measured
 
     @cached_property
     def triangle_of_faces(self) -> NDArray[np.int32]:
@@ -178,7 +224,7 @@ class Measurement:
         if inside is None:
             inside = face_of_triangles(self.triangles, self.at_edge, self.surface.faces)
         return thinnest_of_faces(
-            self.shape, self.points, self.triangles, self.of_triangles, self.at_edge, inside
+            self.shape, self.points, self.triangles, self.drawn, self.at_edge, inside
         )
 
     @property

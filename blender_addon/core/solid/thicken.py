@@ -129,8 +129,9 @@ def thicken(
     moves, crossed = walls.without_crossings(moves)
     after = measured(walls.shape_of(moves), Edges.EXTRAPOLATE)
     left = find_thin_parts(after, wanted.limit)
-    told = [_CROSSED] if crossed or overlap else []
-    warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()) or crossed))
+    met = crossed or overlap
+    told = [_CROSSED] if met else []
+    warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()), met))
     seconds = time.perf_counter() - start
     return Thickened(moves, before, after, left, walls.narrowest, warnings, seconds)
 
@@ -195,21 +196,28 @@ def _check_size(found: Measurement, limit: float) -> None:
 
 def _missing(found: Measurement, limit: float) -> float:
     """The volume that thin walls lack, about."""
-    lack = np.maximum(limit - found.slack - found.of_triangles, 0.0)
+    lack = np.maximum(limit - found.slack - found.of_walls, 0.0)
     return float((lack * found.areas).sum())
 
 
-def _left_over(left: ThinParts, moved: bool) -> tuple[str, ...]:
+def _left_over(left: ThinParts, moved: bool, met: bool) -> tuple[str, ...]:
+    """Say why something is still thin: other walls were in the way, a step helps nothing, or vertices are missing."""
     if not left.patches:
         return ()
+    share, least = percent(left.share), left.patches[0].minimum
+    if met:
+        return (
+            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: make room between the "
+            "walls, or take a smaller limit",
+        )
     if not moved:
         return (
-            f"{percent(left.share)} of the surface is still thinner than the limit, down to "
-            f"{left.patches[0].minimum:.3g}: nothing moved, as a step would make more of it thin; take a smaller limit",
+            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: nothing moved, as a step "
+            "would make more of it thin; take a smaller limit",
         )
     return (
-        f"{percent(left.share)} of the surface is still thinner than the limit, down to "
-        f"{left.patches[0].minimum:.3g}: tips and edges that taper stay, and coarse faces need a subdivision",
+        f"{share} of the surface is still thinner than the limit, down to {least:.3g}: tips and edges that taper stay, "
+        "and coarse faces need a subdivision",
     )
 
 
@@ -292,14 +300,15 @@ class _Walls:
     def _lack(self, found: Measurement) -> NDArray[np.float64]:
         """(k,) what each fan lacks to the limit: at its vertex, or on edges and coarse faces at its triangles."""
         limit = self._wanted.limit * (1.0 + _BEYOND)
-        thin = found.of_triangles < self._wanted.limit - found.slack
+        lengths = found.of_walls
+        thin = lengths < self._wanted.limit - found.slack
         piece = found.surface.face_of_triangles
         faces = np.arange(len(found.triangles)) if piece is None else piece
         of_faces = np.full(len(self._triangles), np.inf)
-        np.minimum.at(of_faces, faces[thin], found.of_triangles[thin])
-        own = (found.of_vertices[self._row], found.at_edge[: len(self._row)][self._row])
-        lengths = np.where(own[1], np.inf, own[0])[self._triangles]
-        at_corners = np.where(np.isfinite(lengths), lengths, of_faces[:, None])
+        np.minimum.at(of_faces, faces[thin], lengths[thin])
+        elsewhere = (found.at_edge | ~found.measured)[: len(self._row)][self._row]
+        own = np.where(elsewhere, np.inf, found.of_vertices[self._row])[self._triangles]
+        at_corners = np.where(np.isfinite(own), own, of_faces[:, None])
         at_corners[~np.isfinite(of_faces)] = np.inf
         if found.triangles is not self._shape.triangles:
             at_corners = np.minimum(at_corners, of_faces[:, None])
@@ -324,7 +333,7 @@ class _Walls:
                 sharp_edges=self._shape.sharp_edges,
                 smooth=False,
             )
-            _, gap = outside.inscribed_balls(
+            _, gap, _ = outside.inscribed_balls(
                 corners.mean(axis=1),
                 rows.astype(np.int32),
                 size,

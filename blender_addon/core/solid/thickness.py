@@ -82,7 +82,14 @@ def _key_by_faces(shape: Shape, settings: Settings, wanted: ThicknessSettings) -
     """The name of a measurement by the faces, of all that it depends on."""
     return key_of(
         "thickness by faces",
-        (shape.points, shape.triangles, shape.sharp_edges, shape.shaded_smooth, shape.of_samples),
+        (
+            shape.points,
+            shape.triangles,
+            shape.sharp_edges,
+            shape.shaded_smooth,
+            shape.of_samples,
+            shape.single,
+        ),
         astuple(settings),
         astuple(replace(wanted, limit=0.0)),
     )
@@ -173,14 +180,12 @@ def _up_to_faces(found: Measurement) -> Measurement:
         return np.maximum(lengths + more, 0.0)
 
     surface, walls = found.surface, found.walls
-    middles = surface.in_middles
     return replace(
         found,
         surface=replace(
             surface,
             lengths=widened(surface.lengths),
             at_most=widened(surface.at_most),
-            in_middles=None if middles is None else widened(middles),
         ),
         walls=replace(
             walls, distance=widened(walls.distance), at_vertices=widened(walls.at_vertices)
@@ -248,6 +253,11 @@ def _warnings(found: Measurement) -> Iterator[str]:
         yield (
             f"at {percent(float(found.walls.share.sum()))} of the surface the walls are closer than the axis "
             f"shows, down to {found.walls.distance.min():.3g}; there the distance straight through the solid counts"
+        )
+    if found.slack > 0.0 and found.slack > UNKNOWN * (found.settings.limit or found.minimum):
+        yield (
+            f"coordinates so far from the origin are rounded by {found.slack:.2g}, and so is every length; move the "
+            "shape to the origin where it is made"
         )
     if found.unmeasured > UNKNOWN:
         yield (

@@ -71,21 +71,21 @@ def scale_of(found: Measurement, limit: float) -> ThicknessScale:
 
 def histogram(found: Measurement, scale: ThicknessScale) -> NDArray[np.float64]:
     """(STEPS,) the shares of the area with each colour; the last step has all that is thicker."""
-    known = np.isfinite(found.of_triangles)
-    step = np.searchsorted(scale.bounds[1:-1], found.of_triangles[known], side="right")
+    known = np.isfinite(found.drawn)
+    step = np.searchsorted(scale.bounds[1:-1], found.drawn[known], side="right")
     areas = np.bincount(step, found.areas[known], STEPS)
     return areas / max(float(found.areas.sum()), sys.float_info.min)
 
 
 def _length_of_share(found: Measurement, share: float) -> float:
     """Return the length that a share of the area does not exceed; 0 where nothing has a length."""
-    known = np.isfinite(found.of_triangles)
+    known = np.isfinite(found.drawn)
     if not known.any():
         return 0.0
-    order = np.argsort(found.of_triangles[known], kind="stable")
+    order = np.argsort(found.drawn[known], kind="stable")
     areas = np.cumsum(found.areas[known][order])
     row = min(int(np.searchsorted(areas, share * areas[-1])), len(order) - 1)
-    return float(found.of_triangles[known][order[row]])
+    return float(found.drawn[known][order[row]])
 
 
 def _share(lengths: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:

@@ -35,7 +35,7 @@ def thin_in_part(found: Measurement, limit: float) -> NDArray[np.bool_]:
     face, count = found.surface.face_of_triangles, len(found.shape.triangles)
     if face is None or found.triangles is found.shape.triangles:
         return np.zeros(count, bool)
-    lengths = found.of_triangles
+    lengths = found.of_walls
     thin = lengths < limit - found.slack
     area, part, rest = (
         np.bincount(face, weights, minlength=count)

@@ -26,10 +26,9 @@ class Patch:
         The middle of its thinnest triangle, in the frame of the shape.
     area : float
     minimum : float
-        The length of its thinnest triangle. The length of a triangle is a median of three samples, so no single sample
-        decides.
+        The length of its thinnest triangle.
     lowest : float
-        The smallest length of its samples.
+        The smallest length of its samples; by the faces, where none is left out, the minimum.
     """
 
     place: tuple[float, float, float]
@@ -45,10 +44,12 @@ class ThinParts:
     Parameters
     ----------
     limit : float
+    minimum : float
+        The smallest length of all: never below the limit without a patch that says so.
     patches : tuple of Patch
         The thinnest first.
     patch_of_triangles : (f,) int32
-        The patch of each triangle of the measured surface; -1 where there is none.
+        The patch of each triangle of the measured surface, also where it is filled in; -1 where there is none.
     patch_of_faces : (m,) int32
         The patch of each face of the shape: that of the triangle that represents it.
     area : float
@@ -58,6 +59,7 @@ class ThinParts:
     """
 
     limit: float
+    minimum: float
     patches: tuple[Patch, ...]
     patch_of_triangles: NDArray[np.int32]
     patch_of_faces: NDArray[np.int32]
@@ -81,11 +83,14 @@ def find_thin_parts(
     least = found.settings.minimum_patch if minimum_patch is None else minimum_patch
     thin = found.of_triangles < limit - found.slack
     with native.own_errors() as module:
-        numbers = module.patches(found.triangles, thin, len(found.points))
-    total = float(found.areas.sum())
+        drawn = found.drawn < limit - found.slack
+        numbers = module.patches(found.triangles, drawn, len(found.points))
     count = int(numbers.max(initial=-1)) + 1
-    all_areas = np.bincount(numbers[thin], found.areas[thin], count).astype(np.float64)
+    below = found.areas_below(limit)[drawn]
+    all_areas = np.bincount(numbers[drawn], below, count).astype(np.float64)
+    total = float(found.areas.sum())
     large = all_areas >= least / 100.0 * total
+    large &= np.bincount(numbers[thin], minlength=count) > 0
     large[numbers[thin & (found.surface.at_most < limit - found.slack)]] = True
     numbers, areas = _kept(numbers, all_areas, large)
     numbers, patches = _described(found, numbers, areas)
@@ -93,7 +98,11 @@ def find_thin_parts(
     of_faces = np.where(faces >= 0, numbers[faces], -1).astype(np.int32) if len(numbers) else faces
     area = float(areas.sum())
     share = min(1.0, area / total) if total > 0.0 else 0.0
-    return ThinParts(limit, patches, numbers, of_faces, area, share)
+    counted = ~thin | (numbers >= 0)
+    minimum = float(found.of_triangles[counted].min(initial=np.inf))
+    if not patches:
+        minimum = max(minimum, limit)  # less by rounding only
+    return ThinParts(limit, minimum, patches, numbers, of_faces, area, share)
 
 
 def _kept(
@@ -115,8 +124,10 @@ def _described(
     rank = np.argsort(first, kind="stable")  # patches by their thinnest triangle
     new = np.full(len(areas) + 1, -1, np.int32)
     new[order[rank]] = np.arange(len(rank))
-    lowest = np.full(len(areas), np.inf)
-    np.minimum.at(lowest, numbers[inside], found.lengths[found.triangles[inside]].min(axis=1))
+    lowest = found.of_triangles[thinnest]
+    if found.surface.between_walls is None:
+        lengths = found.lengths[found.triangles[inside]].min(axis=1)
+        np.minimum.at(lowest, numbers[inside], lengths)
     places = found.points[found.triangles[thinnest]].mean(axis=1).tolist()
     patches = tuple(
         Patch(

@@ -146,6 +146,12 @@ OrientedBox Faces::box_round(std::span<const int32_t> triangles,
   return box;
 }
 
+Vec3 Faces::normal_of_patch(int32_t triangle, const Barycentric& at) const {
+  if (!is_curved(triangle)) return normal(triangle, at);
+  const PatchExpansion of = surface_->patch(triangle).polynomial({}).expansion(at.b, at.c);
+  return normalized(cross(of.b, of.c));
+}
+
 Vec3 Faces::point(int32_t triangle, const Barycentric& at) const {
   return surface_->point(triangle, at);
 }

@@ -70,6 +70,8 @@ class Faces {
   Vec3 normal(int32_t triangle, const Barycentric& at) const {
     return surface_->normal(triangle, at);
   }
+  // Returns the normal of the patch itself, which that between the corners only follows.
+  Vec3 normal_of_patch(int32_t triangle, const Barycentric& at) const;
   // Returns the foot on one triangle.
   Foot foot_on(int32_t triangle, const Vec3& from) const;
   // Walks from a triangle to neighbours of the same wall while they are nearer.

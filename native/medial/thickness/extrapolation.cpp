@@ -131,12 +131,8 @@ class Spreading {
 void extrapolate(std::vector<double>& values, std::span<const double> own,
                  std::span<const Vec3> points, const Tangents& tangents, const Edges& edges,
                  const Significance& significance, const Run& run) {
-  spread(values, own, points, paths(values, points, tangents, edges, significance, run), run);
-}
-
-void spread(std::vector<double>& values, std::span<const double> own, std::span<const Vec3> points,
-            std::vector<Edge> ends, const Run& run) {
-  Spreading to_others(values, own, points, std::move(ends), run);
+  Spreading to_others(values, own, points,
+                      paths(values, points, tangents, edges, significance, run), run);
   to_others.spread();
   to_others.spread_own();
 }

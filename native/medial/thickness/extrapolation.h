@@ -17,10 +17,6 @@ void extrapolate(std::vector<double>& values, std::span<const double> own,
                  std::span<const Vec3> points, const Tangents& tangents, const Edges& edges,
                  const Significance& significance, const Run& run);
 
-// Does the same along given edges.
-void spread(std::vector<double>& values, std::span<const double> own, std::span<const Vec3> points,
-            std::vector<Edge> ends, const Run& run);
-
 // At a right edge of a plate the farthest place without a wall is the middle of its rim, as far
 // from the nearest wall as the plate is thick; at sharper edges it is farther.
 inline constexpr double kReach = 2;

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walls by their definition: random solids against it, and small ones that once were wrong."""
+
+import json
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import Settings, ThickenSettings, ThicknessSettings
+from medial_axis.core.solid.thicken import thicken
+from medial_axis.core.solid.thickness import measure_thickness
+from medial_axis.core.solid.thin_parts import find_thin_parts
+from support import meshes
+from support.thick_meshes import block, joined, lathe, shell
+from support.wall_truth import slanted_plate, tube, turned, turned_part, walls
+
+pytestmark = pytest.mark.oracle
+
+AWAY = [0.0, 1e5]
+FLAT = Settings(smooth=False)
+
+
+def measure(mesh, settings=FLAT, single=False, **wanted):
+    shape = Shape(np.asarray(mesh[0], float), np.asarray(mesh[1], np.int32), single=single)
+    return measure_thickness(shape, settings, ThicknessSettings(**wanted))
+
+
+def places_of(found, count, rng):
+    """Some places between walls inside of faces, the thinnest among them, and their faces."""
+    shape = found.shape
+    a, b, c = shape.points[shape.triangles].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    face = found.surface.face_of_triangles
+    inside = np.ones(len(found.points), bool)
+    first = np.full(len(found.points), -1)
+    for corner in found.triangles.T:
+        first[corner] = face
+    for corner in found.triangles.T:  # not on the edge between two faces
+        turned = np.linalg.norm(np.cross(normals[face], normals[first[corner]]), axis=1)
+        np.logical_and.at(inside, corner, turned < 1e-9 * (normals[face] ** 2).sum(axis=1))
+    some = np.flatnonzero(found.measured & ~found.at_edge & inside)
+    some = some[np.argsort(found.lengths[some], kind="stable")]
+    rows = np.union1d(some[: count // 2], rng.choice(some, min(len(some), count // 2)))
+    return rows, first[rows]
+
+
+# --- random solids
+
+
+@pytest.mark.parametrize("away", AWAY)
+@pytest.mark.parametrize("seed", range(3))
+def test_turned_parts_have_walls_by_the_definition(seed, away):
+    rng = np.random.default_rng(seed)
+    mesh = turned(turned_part(rng), rng, away)
+    found = measure(mesh)
+    if not np.isfinite(found.surface.between_walls).any():
+        return
+    rows, faces = places_of(found, 40, rng)
+    truth, between = walls(mesh, found.points[rows], faces)
+    # Faces that turn by less than the sharp angle are one wall, which limits no ball at its own edges.
+    off = found.lengths[rows] / truth - 1
+    assert off.min() > -1e-6 and np.mean(off < 1e-6) > 0.9
+    assert between[off < 1e-6].all()
+
+
+@pytest.mark.parametrize("away", AWAY)
+@pytest.mark.parametrize("seed", [11, 30, 72, 75])  # all bends are sharp, and none below 60 degrees
+def test_smooth_turned_parts_are_no_thinner_than_round_ones(seed, away):
+    """A part of four times as many flat sides stands for the round one."""
+    rng = np.random.default_rng(seed)
+    truth = measure(turned_part(np.random.default_rng(seed), 4)).minimum
+    assert measure(turned(turned_part(rng), rng, away), Settings()).minimum > 0.98 * truth
+
+
+@pytest.mark.parametrize("away", AWAY)
+@pytest.mark.parametrize("seed", range(3))
+def test_plates_with_slanted_rims_are_as_thick_as_they_are(seed, away):
+    rng = np.random.default_rng(seed)
+    mesh, thickness = slanted_plate(rng)
+    for settings in (Settings(), FLAT):
+        found = measure(turned(mesh, rng, away), settings)
+        assert found.minimum == pytest.approx(thickness, rel=1e-8)
+        assert found.between_parallel == pytest.approx(thickness, rel=1e-8)
+
+
+@pytest.mark.parametrize("away", AWAY)
+@pytest.mark.parametrize("seed", range(2))
+def test_pipes_are_as_thick_as_their_walls(seed, away):
+    rng = np.random.default_rng(seed)
+    mesh, thickness = tube(rng)
+    mesh = turned(mesh, rng, away)
+    assert measure(mesh).minimum == pytest.approx(thickness, rel=1e-6)
+    assert measure(mesh, Settings()).minimum > 0.98 * thickness
+
+
+# --- solids that once were wrong
+
+
+def frustum(around):
+    return lathe([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0), (0.0, 1.0)], around)
+
+
+@pytest.mark.parametrize("around", [16, 24, 32, 64])
+def test_a_rim_of_63_degrees_is_no_wall(around):
+    found = measure(frustum(around), Settings())
+    assert found.minimum > 0.83
+    assert find_thin_parts(found, 0.25).share == 0.0
+
+
+def test_thicken_leaves_a_frustum_alone():
+    points, triangles = frustum(32)
+    shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
+    done = thicken(shape, Settings(), ThickenSettings(limit=0.25, subdivide=True))
+    assert not done.moves.any() and not done.left.patches
+
+
+def test_a_pit_through_a_wall_is_its_minimum():
+    points, triangles = shell(4)
+    points = np.array(points, float)
+    top = points[:, 2].argmax()
+    points[top] *= 0.802 / np.linalg.norm(points[top])
+    found = measure((points, triangles), Settings())
+    assert found.minimum == pytest.approx(0.002, abs=1e-4)
+    patch = find_thin_parts(found, 0.1).patches[0]
+    assert patch.minimum == patch.lowest == found.minimum
+
+
+@pytest.mark.parametrize("wide", [0.02, 0.1])
+def test_a_square_pin_is_seen(wide):
+    found = measure(joined(block(1, 1, 1), block(wide, wide, 0.5, (0.4, 0.4, 1.2))), Settings())
+    assert found.minimum == pytest.approx(wide, rel=1e-6)
+
+
+@pytest.mark.parametrize("angle", [20.0, 30.0, 45.0])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_wedge_has_a_second_figure(angle, seed):
+    """A web of 1.26 ends in a sharp edge, towards which the least thickness is none."""
+    web, nose = 1.26, 1.26 / np.tan(np.radians(angle))
+    points = np.array([(0, 0, 0), (nose + 3, 0, 0), (nose + 3, 0, web), (nose, 0, web)])
+    points = np.concatenate((points, points + np.array((0, 2, 0))))
+    quads = [(0, 1, 2, 3), (7, 6, 5, 4)] + [
+        ((i + 1) % 4, i, i + 4, (i + 1) % 4 + 4) for i in range(4)
+    ]
+    triangles = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+    mesh = turned((points, triangles), np.random.default_rng(seed), 10.0)
+    # By default a bend of 30 degrees or less is one of a smooth surface, which has other normals.
+    for settings in (FLAT, Settings()) if angle > 31.0 else (FLAT,):
+        found = measure(mesh, settings)
+        assert found.minimum < 0.1
+        assert found.between_parallel == pytest.approx(web, rel=1e-6)
+
+
+def test_both_figures_are_reported(tmp_path, capsys):
+    """A wedge with an edge of 30 degrees beside a plate: all of its faces meet at sharp edges."""
+    slant = 3.0 * np.array((np.cos(np.radians(30.0)), np.sin(np.radians(30.0))))
+    outline = np.array([(0.0, 0.0), (3.0, 0.0), slant])
+    wedge = np.array([(x, y, z) for y in (0.0, 2.0) for x, z in outline])
+    sides = [t for i, j in ((0, 1), (1, 2), (2, 0)) for t in ((i, i + 3, j + 3), (i, j + 3, j))]
+    mesh = joined((wedge, np.array([(0, 1, 2), (3, 5, 4), *sides])), block(4, 4, 1.26, (0, 8, 0)))
+    meshes.write_off(tmp_path / "wedge.off", mesh)
+    out = tmp_path / "wedge.json"
+    cli.main(["thickness", str(tmp_path / "wedge.off"), str(out), "--limit", "1"])
+    report = json.loads(out.read_text())
+    assert report["minimum"] < 0.1
+    assert report["minimum_parallel"] == pytest.approx(1.26, rel=1e-6)
+    assert "(1.26 between nearly parallel walls)" in capsys.readouterr().out
+
+
+# --- the rounding of the input
+
+
+@pytest.mark.parametrize("offset", [0.0, 3e5, 1e6])
+def test_the_gate_sees_far_from_the_origin(tmp_path, capsys, offset):
+    points, triangles = block(1.0, 1.0, 0.02)
+    path = tmp_path / "plate.off"
+    meshes.write_off(path, (np.asarray(points) + offset, triangles))
+    limits = ("0.1", "0.02")
+    for limit in limits:
+        code = cli.main(["thickness", str(path), str(tmp_path / f"{limit}.json"), "--limit", limit])
+        report = json.loads((tmp_path / f"{limit}.json").read_text())
+        assert (code == 5) == (report["minimum"] < report["limit"]) == bool(report["patches"])
+    capsys.readouterr()
+    assert json.loads((tmp_path / "0.1.json").read_text())["patches"]
+
+
+def test_rounding_that_hides_a_limit_is_told():
+    points, triangles = block(1.0, 1.0, 0.02)
+    found = measure((np.asarray(points) + 3e5, triangles), Settings(), single=True)
+    parts = find_thin_parts(found, 0.1)
+    assert parts.minimum >= parts.limit and not parts.patches
+    assert any("rounded" in str(warning) for warning in found.warnings)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_walls_at_exactly_120_degrees_do_not_depend_on_the_pose(seed):
+    rng = np.random.default_rng(seed)
+    angle = 2 * np.pi * np.arange(3) / 3
+    outline = np.column_stack((np.cos(angle), np.sin(angle)))
+    points = np.concatenate([np.column_stack((outline, np.full(3, h))) for h in (0.0, 3.0)])
+    triangles = [(0, 2, 1), (3, 4, 5)]
+    triangles += [
+        t
+        for i in range(3)
+        for t in ((i, (i + 1) % 3, 3 + (i + 1) % 3), (i, 3 + (i + 1) % 3, 3 + i))
+    ]
+    mesh = points, np.array(triangles)
+    plain = find_thin_parts(measure(mesh), 0.3).share
+    assert (
+        0.2
+        < plain
+        == pytest.approx(find_thin_parts(measure(turned(mesh, rng, 0.0)), 0.3).share, rel=0.08)
+    )
