@@ -177,6 +177,7 @@ class EvenSheets {
     spread_least(mesh, even.position, kSlope, even.target);
   }
 
+  double radius_at(int64_t i) const;
   void write(const EvenMesh& even, const EvenPlaces* places);
 
   Level& level_;
@@ -194,6 +195,15 @@ Column<T> rows_of(const Column<T>& values, std::span<const int32_t> rows) {
   found.reserve(rows.size());
   for (const int32_t row : rows) found.push_back(values[row]);
   return found;
+}
+
+// Returns the radius of a vertex whose ball touches no two walls: the distance to the samples,
+// within the faces.
+double EvenSheets::radius_at(int64_t i) const {
+  const Vec3& place = level_.vertices[i];
+  const bool moved = place != level_.exact[i];
+  const double radius = moved ? h_.samples.nearest(place).distance : level_.exact_radius[i];
+  return samples_ ? samples_->within_faces(place, radius) : radius;
 }
 
 // Writes triangles in the order of their facets, and vertices in the order in which triangles,
@@ -251,10 +261,8 @@ void EvenSheets::write(const EvenMesh& even, const EvenPlaces* places) {
     if (places) level_.place[i] = places->placing()[v];
     if (level_.place[i] >= Placing::touching) {
       level_.radius[i] = places->radius()[v];
-    } else if (level_.vertices[i] == level_.exact[i]) {
-      level_.radius[i] = level_.exact_radius[i];
     } else {
-      level_.radius[i] = h_.samples.nearest(even.position[v]).distance;
+      level_.radius[i] = radius_at(i);
     }
   });
 }
