@@ -12,14 +12,16 @@ if TYPE_CHECKING:
 
 
 def united(count: int, pairs: NDArray[np.integer]) -> NDArray[np.int64]:
-    """(count,) the smallest item that (p, 2) pairs connect each item with, maybe by way of others."""
+    """(count,) the smallest item that (p, 2) pairs connect each item with, maybe by way of others.
+
+    Each item that stands for others goes to a smaller one, if a pair leads there; pairs shrink to those between such
+    items, so few rounds suffice also along chains.
+    """
     label = np.arange(count)
-    while True:
-        found = label.copy()
-        lowest = label[pairs].min(axis=1, initial=count)
-        for end in pairs.T:
-            np.minimum.at(found, end, lowest)
-        found = found[found]
-        if np.array_equal(found, label):
-            return label
-        label = found
+    while len(pairs):
+        np.minimum.at(label, pairs.max(axis=1), pairs.min(axis=1))
+        while not np.array_equal(further := label[label], label):
+            label = further
+        pairs = label[pairs]
+        pairs = pairs[pairs[:, 0] != pairs[:, 1]]
+    return label

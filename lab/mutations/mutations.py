@@ -583,7 +583,7 @@ MUTATIONS = (
     ),
     Mutation(
         "skeleton/even_sheets.cpp",
-        "h_.samples.nearest(even.position[v]).distance",
+        "h_.samples.nearest(place).distance",
         "h_.samples.nearest(level_.exact[i]).distance",
         "balls of moved vertices are those of the old places",
     ),

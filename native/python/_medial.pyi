@@ -2237,13 +2237,15 @@ def cover_by_capsules(
     tapered: bool = True,
     places: int = 100_000,
     tolerance: float = 0.0,
+    radii: NDArray[np.float64] | None = None,
     progress: Progress | None = None,
     threads: int = 0,
 ) -> CapsuleCover:
     """A solid as few capsules round segments, such as the edges of a small medial mesh.
 
     INSIDE, each is the largest capsule that was found round its segment and stays in the solid, or a ball round one end
-    if that is larger. AROUND, each then grows or shrinks until it just holds what is nearest to it.
+    if that is larger. AROUND, each, or that of the given radii, then grows or shrinks until it just holds what is
+    nearest to it.
 
     Parameters
     ----------
@@ -2262,6 +2264,9 @@ def cover_by_capsules(
         Of the lattice in the solid, as for `cover_by_balls`.
     tolerance : float
         INSIDE, a capsule may grow to reach out so far, if that is needed to hold what is nearest to it.
+    radii : (2 s,) float64, optional
+        AROUND, those of the capsules to begin with, at both ends of each segment; then none of them need lie in the
+        solid, and all are kept.
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.
@@ -2271,4 +2276,36 @@ def cover_by_capsules(
     InvalidInputError, Cancelled
     DegenerateInputError
         The faces enclose no place, or no end lies in the solid.
+    """
+
+def least_capsules(
+    places: NDArray[np.float64],
+    group: NDArray[np.int32],
+    *,
+    count: int,
+    tapered: bool = False,
+    threads: int = 0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Capsules of nearly the least volume that hold groups of places.
+
+    Parameters
+    ----------
+    places : (n, 3) float64
+    group : (n,) int32
+        The group of each place, below `count`.
+    count : int
+    tapered : bool
+        Whether radii may differ at both ends of a capsule.
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    ends : (2 count, 3) float64
+    radii : (2 count,) float64
+        The rows 2k and 2k + 1 are the ends of the capsule of group k. Those of an empty group have the radius 0.
+
+    Raises
+    ------
+    InvalidInputError
     """

@@ -31,15 +31,30 @@ BallCover cover(const py::object& centres, const py::object& radii, const py::ob
 CapsuleCover cover_round(const py::object& ends, const py::object& segments,
                          const py::object& vertices, const py::object& triangles, int64_t count,
                          CoverMode mode, bool tapered, int64_t places, double tolerance,
-                         Progress* progress, int threads) {
+                         const py::object& radii, Progress* progress, int threads) {
   const Points rows(ends, "ends"), corners(vertices, "vertices");
   const Triangles faces(triangles);
-  const CapsuleCoverInput input{rows.span(), edges_of(segments), corners.span(), faces.span()};
+  CapsuleCoverInput input{rows.span(), edges_of(segments), corners.span(), faces.span(), {}};
+  if (!radii.is_none()) input.radii = lengths_of(radii, "radii");
   const CapsuleCoverOptions options{
       .count = count, .mode = mode, .tapered = tapered, .places = places, .tolerance = tolerance};
   const int wanted = thread_argument(threads);
   const py::gil_scoped_release release;
   return cover_by_capsules(input, options, wanted, progress);
+}
+
+py::tuple capsules_round_groups(const py::object& places, const py::object& group, int32_t count,
+                                bool tapered, int threads) {
+  const Points rows(places, "places");
+  const auto groups = ids_of(group, "group");
+  const int wanted = thread_argument(threads);
+  LeastCapsules found;
+  {
+    const py::gil_scoped_release release;
+    found = least_capsules(rows.span(), groups, count, tapered, wanted);
+  }
+  return py::make_tuple(array_of<double>(std::move(found.ends)),
+                        array_of<double>(std::move(found.radii)));
 }
 
 void bind_capsules(py::module_& m) {
@@ -57,7 +72,10 @@ void bind_capsules(py::module_& m) {
   m.def("cover_by_capsules", &cover_round, docs::cover_by_capsules, py::arg("ends"),
         py::arg("segments"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
         py::arg("count") = 64, py::arg("mode") = CoverMode::inside, py::arg("tapered") = true,
-        py::arg("places") = 100'000, py::arg("tolerance") = 0.0, py::arg("progress") = nullptr,
+        py::arg("places") = 100'000, py::arg("tolerance") = 0.0, py::arg("radii") = py::none(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("least_capsules", &capsules_round_groups, docs::least_capsules, py::arg("places"),
+        py::arg("group"), py::kw_only(), py::arg("count"), py::arg("tapered") = false,
         py::arg("threads") = 0);
 }
 

@@ -88,8 +88,9 @@ def test_balls_in_a_row_become_so_many_segments(count):
     """Balls along a rod: one capsule holds as much as all of them."""
     centres = np.column_stack([np.zeros((12, 2)), np.linspace(0.0, 4.0, 12)])
     radii = np.full(12, 0.29)
-    places, segments = segments_of(centres, radii, count, ROD, places_of(ROD), 0.05, False)
-    assert segments.shape == (count, 2) and len(places) == 2 * count
+    ends, found = segments_of(centres, radii, count, ROD, places_of(ROD), 0.05, False)
+    assert ends.shape == (count, 2, 3) and found.shape == (count, 2)
+    places = ends.reshape(-1, 3)
     heights = np.sort(places[:, 2])
     assert heights[0] == 0.0 and heights[-1] == 4.0
     assert {tuple(place) for place in places} <= {tuple(place) for place in centres}
@@ -106,17 +107,17 @@ def test_a_place_beyond_the_bound_costs_more_than_all_places_inside():
     mesh = two_spheres()
     centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
     ends, _ = segments_of(centres, radii, 1, mesh, places_of(mesh), 2.5, False)
-    assert (ends[:, 0] == 0.0).all()
+    assert (ends[..., 0] == 0.0).all()
     few = np.zeros((50, 3)), np.array([(3.1, 0, 0)])
     ends, _ = segments_of(centres, radii, 1, mesh, few, 0.05, False)
-    assert (ends[:, 0] == 3.0).all()
+    assert (ends[..., 0] == 3.0).all()
 
 
 def test_a_bound_of_0_grows_until_it_can_be_kept():
     mesh = two_spheres()
     centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
-    ends, segments = segments_of(centres, radii, 1, mesh, places_of(mesh), 0.0, False)
-    assert len(segments) == 1 and (ends[:, 0] == 0.0).all()
+    ends, _ = segments_of(centres, radii, 1, mesh, places_of(mesh), 0.0, False)
+    assert len(ends) == 1 and (ends[..., 0] == 0.0).all()
 
 
 def test_a_spindle_has_no_end_bare():

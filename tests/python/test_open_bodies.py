@@ -5,9 +5,15 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.errors import DegenerateInputError
-from medial_axis.core.samples.outward_faces import REPEATED, outward_shape
+from medial_axis.core.samples.outward_faces import OF_SHEETS, REPEATED, outward_shape
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import HollowSettings, Settings, SidesFrom, ThickenSettings
+from medial_axis.core.settings import (
+    HollowSettings,
+    SamplingMode,
+    Settings,
+    SidesFrom,
+    ThickenSettings,
+)
 from medial_axis.core.solid.hollow import hollow
 from medial_axis.core.solid.thicken import thicken
 from support import meshes
@@ -115,3 +121,14 @@ def test_faces_without_corners_are_one_sentence():
     points = np.random.default_rng(0).normal(size=(30, 3))
     with pytest.raises(DegenerateInputError, match="faces with three corners in three places"):
         computed((points, np.repeat(np.arange(30)[:, None], 3, axis=1)))
+
+
+@pytest.mark.parametrize("sampling", SamplingMode)
+def test_faces_of_which_none_is_left_are_one_sentence(sampling):
+    """The compiled module said 'Expected triangles for sides SURFACE, found none'."""
+    points, triangles = BOX
+    left_out = np.full(len(triangles), OF_SHEETS, np.uint8)
+    shape = Shape(points, np.repeat(triangles[:, :1], 3, axis=1), reading=left_out)
+    settings = Settings(sampling=sampling, samples=100)
+    with pytest.raises(DegenerateInputError, match="that repeat others, are sheets or have no three"):
+        compute_axis(shape, settings)

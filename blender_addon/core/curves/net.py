@@ -170,6 +170,21 @@ class Net:
         self.add(chain[: at + 1])
         self.add(chain[at:])
 
+    def connect(self, first: int, second: int) -> None:
+        """Add a branch between two points, which may lie within branches of different pieces."""
+        for row in (first, second):
+            if row not in self.at:
+                name = next(name for name, chain in self.branches.items() if row in chain)
+                self.split(name, self.branches[name].index(row))
+        self.add([first, second])
+        for row in (first, second):
+            self._join(row)
+
+    def absorb(self, single: int, row: int) -> None:
+        """Remove a point without a branch; another one takes over what it owned."""
+        del self.at[single]
+        self._give([single], row)
+
     def open(self, name: int, at: int) -> None:
         """Remove the edge after a position on a branch of a loop; both halves stay, and end there."""
         chain = self.branches[name]

@@ -11,6 +11,7 @@ from ..machine.beside import Beside
 from ..settings import SidesFrom
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
+from .outward_faces import check_some_left
 from .patches import patches_of
 from .solid_faces import solid_faces
 from .surface_samples import apart_of, are_paired
@@ -134,6 +135,8 @@ def _analysis(
     shape = request.shape
     request.limit.check(len(points))
     triangles, normals = used_by_sides(sides.source, shape.triangles, normals)
+    if triangles is not None:
+        check_some_left(shape)
     separate = triangles is not None and points is not shape.points
     with native.own_errors() as module:
         return module.MedialAnalysis(

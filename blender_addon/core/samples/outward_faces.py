@@ -60,6 +60,15 @@ def _check_corners(shape: Shape) -> None:
         )
 
 
+def check_some_left(shape: Shape) -> None:
+    """Raise DegenerateInputError where every face counts for nothing, so none can tell what is inside."""
+    if are_left_out(shape).all():
+        raise DegenerateInputError(
+            f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
+            "no three corners; give them thickness (a Solidify modifier), or choose Inside From Tight Cocone"
+        )
+
+
 def reading_counts(shape: Shape) -> dict[str, int]:
     """Return how many faces were read the other way round, and how many were left out and why."""
     reading = np.zeros(0, np.uint8) if shape.reading is None else shape.reading

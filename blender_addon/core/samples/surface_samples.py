@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import DegenerateInputError
 from ..machine import native
 from .buried_samples import find_bare, on_flat_faces
+from .outward_faces import check_some_left
 from .sample_spacing import mean_spacing
 from .triangles import unit_normals
 from .walls import Places
@@ -93,6 +94,7 @@ def sample_faces(
     DegenerateInputError
         The surface bounds nothing.
     """
+    check_some_left(shape)
     all_rows = np.arange(len(shape.triangles), dtype=np.int64)
     rows = shape.unfolded if options["pairs"] else all_rows
     found = _sampled(shape, rows, options, progress)

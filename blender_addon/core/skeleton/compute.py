@@ -29,6 +29,7 @@ from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
 from .forks import draw_forks
 from .inscribe import inscribe
+from .join_pieces import join_pieces
 from .middle import lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
@@ -131,6 +132,7 @@ def compute_skeleton(
     decided = SidesFrom.WRAP if wraps else chosen.sides.source
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
+    joined = join_pieces(net, depth, begun.shape) if by_faces else 0
     lead_through_middle(net, depth)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_whole(net, names))[0])
@@ -152,7 +154,7 @@ def compute_skeleton(
         chosen=chosen,
         warnings=(
             *solid_warnings(begun.shape, Side.INNER, decided, chosen, level.betti),
-            *skeleton_warnings(loops, len(level.generators), outside),
+            *skeleton_warnings(loops, len(level.generators), outside, joined),
         ),
         seconds=begun.seconds,
     )

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from ..curves.rules import Loops
 
 
-def skeleton_warnings(loops: Loops, sheets: int, outside: int) -> list[str]:
+def skeleton_warnings(loops: Loops, sheets: int, outside: int, joined: int = 0) -> list[str]:
     """Return the warnings, the most important first.
 
     Parameters
@@ -20,6 +20,8 @@ def skeleton_warnings(loops: Loops, sheets: int, outside: int) -> list[str]:
         The number of facets of closed sheets, which have no curve.
     outside : int
         The number of edges that leave the solid.
+    joined : int
+        The number of pieces that were joined to others.
     """
     found = []
     if sheets:
@@ -30,6 +32,11 @@ def skeleton_warnings(loops: Loops, sheets: int, outside: int) -> list[str]:
         found.append(
             f"{outside:,} edges of the skeleton leave the solid, where it is thinner than their ends are apart; "
             "take more samples"
+        )
+    if joined:
+        found.append(
+            f"{joined:,} pieces of the skeleton were joined to others across gaps that lie inside the solid, where "
+            "samples are too few for it; take more samples"
         )
     if loops.cut:
         found.append(

@@ -28,6 +28,7 @@ from ..settings import (
 )
 from ..small_matrices import length_of
 from .capsule_segments import evenly, places_inside, segments_of
+from .tight_capsules import Capsules, tight_capsules
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -211,20 +212,13 @@ def _capsules_of(
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part(), places=True)
     progress.until(_MANY)
     surface = _surface(shape, chosen)
-    tapered = wanted.shapes is CoverShapes.TAPERED
-    ends, segments = _segments(_balls(hierarchy), surface, chosen, wanted.count, tapered, progress)
+    inner, tight = _segments(_balls(hierarchy), surface, chosen, wanted, progress)
     progress.until(1.0)
-    with native.own_errors() as module:
-        found = module.cover_by_capsules(
-            ends,
-            segments,
-            *surface,
-            count=wanted.count,
-            mode=getattr(module.CoverMode, wanted.mode.name),
-            tapered=tapered,
-            tolerance=tolerance,
-            progress=progress.part(),
-        )
+    covers = [_cover_round(inner, None, surface, wanted, tolerance, progress)]
+    covers += [
+        _cover_round(one.ends, one.radii, surface, wanted, tolerance, progress) for one in tight
+    ]
+    found = min(covers, key=_volume_of)
     ends = found.ends.reshape(-1, 2, 3)
     is_ball = (ends[:, 0] == ends[:, 1]).all(axis=1)
     kept = np.column_stack([np.ones(len(ends), np.bool_), ~is_ball])  # a ball is kept once
@@ -239,15 +233,46 @@ def _capsules_of(
     return balls, np.empty(0), found.places
 
 
+def _cover_round(
+    ends: NDArray[np.float64],
+    radii: NDArray[np.float64] | None,
+    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+    wanted: BallSettings,
+    tolerance: float,
+    progress: Progress,
+) -> Any:
+    """Return a `_medial.CapsuleCover` round segments, (n, 2, 3), which may begin with given radii."""
+    with native.own_errors() as module:
+        return module.cover_by_capsules(
+            ends.reshape(-1, 3),
+            np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2),
+            *surface,
+            count=wanted.count,
+            mode=getattr(module.CoverMode, wanted.mode.name),
+            tapered=wanted.shapes is CoverShapes.TAPERED,
+            tolerance=tolerance,
+            radii=None if radii is None else radii.ravel(),
+            progress=progress.part(),
+        )
+
+
+def _volume_of(cover: Any) -> float:
+    """Return the volume of the capsules of a `_medial.CapsuleCover`."""
+    return Capsules(cover.ends.reshape(-1, 2, 3), cover.radii.reshape(-1, 2)).volume()
+
+
 def _segments(
     candidates: tuple[NDArray[np.float64], NDArray[np.float64]],
     surface: tuple[NDArray[np.float64], NDArray[np.int32]],
     chosen: ChosenSamples,
-    count: int,
-    tapered: bool,
+    wanted: BallSettings,
     progress: Progress,
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return ends and segments for capsules: those of more balls INSIDE than are wanted, which are merged."""
+) -> tuple[NDArray[np.float64], list[Capsules]]:
+    """Return segments for capsules, (n, 2, 3): those of more balls INSIDE than are wanted, which are merged.
+
+    AROUND, there are also capsules that hold the samples, the vertices, and places inside.
+    """
+    count, tapered = wanted.count, wanted.shapes is CoverShapes.TAPERED
     more = count + min(_TIMES * count, _MOST_MORE)
     with native.own_errors() as module:
         found = module.cover_by_balls(
@@ -261,7 +286,11 @@ def _segments(
     progress.until(_SEGMENTS)
     places = places_inside(*surface, _INSIDE), evenly(chosen.samples.points, _ON_SURFACE)
     balls = candidates[0][found.chosen], found.radii
-    return segments_of(*balls, count, surface, places, _BOUND * found.farthest, tapered, progress)
+    inner = segments_of(*balls, count, surface, places, _BOUND * found.farthest, tapered, progress)
+    if wanted.mode is CoverMode.INSIDE:
+        return inner[0], []
+    held = np.concatenate([*places, evenly(surface[0], _ON_SURFACE)])
+    return inner[0], tight_capsules(held, count, tapered, inner)
 
 
 def _figures_of(found: Any, mode: CoverMode) -> tuple[float, float, float]:

@@ -82,11 +82,16 @@ def places_inside(
     a, b, c = np.moveaxis(vertices[triangles] - low, 1, 0)
     volume = abs(float(dot(a, np.cross(b, c)).sum())) / 6.0
     box = float(size[0] * size[1] * size[2])
-    steps = _steps(size.tolist(), _cube_root(max(volume / count, box / _IN_BOX)))
-    axes = [(np.arange(n) + 0.5) * (length / n) for n, length in zip(steps, size, strict=True)]
-    places = low + np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    places = low + lattice(size.tolist(), cube_root(max(volume / count, box / _IN_BOX)))
     with own_errors() as module:
         return places[np.asarray(module.winding_number(places, vertices, triangles)) > 0.5]
+
+
+def lattice(size: list[float], step: float) -> NDArray[np.float64]:
+    """Return the places of a lattice in a box at 0, with about this step."""
+    steps = _steps(size, step)
+    axes = [(np.arange(n) + 0.5) * (length / n) for n, length in zip(steps, size, strict=True)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def _steps(size: list[float], step: float) -> list[int]:
@@ -96,7 +101,7 @@ def _steps(size: list[float], step: float) -> list[int]:
     return steps
 
 
-def _cube_root(number: float) -> float:
+def cube_root(number: float) -> float:
     """Return the cube root of a positive number by Newton's method; that of the C library differs between systems."""
     root = math.ldexp(1.0, math.frexp(number)[1] // 3 + 1)
     for _ in range(_NEWTON):
@@ -264,8 +269,8 @@ def segments_of(
     bound: float,
     tapered: bool,
     progress: Progress | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return segments round which few capsules hold most of what many balls do.
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return few capsules that hold most of what many balls do.
 
     Two elements, balls or capsules, become one capsule from an end of one to an end of the other, or one of them is
     left out, whichever loses least, until there are so many.
@@ -289,9 +294,9 @@ def segments_of(
 
     Returns
     -------
-    ends : (2 s, 3) float64
-    segments : (s, 2) int32
-        Rows of ends: 0 and 1, 2 and 3, ... Those of a ball are equal places.
+    ends : (s, 2, 3) float64
+        Those of a ball are equal places.
+    radii : (s, 2) float64
     """
     while True:
         witnesses = Witnesses.of(*places, bound)
@@ -301,5 +306,4 @@ def segments_of(
         if farthest <= _BEYOND * bound:
             break
         bound = max(2.0 * bound, farthest / _FIRST)
-    ends = merging.ends[merging.lives].reshape(-1, 3)
-    return ends, np.arange(len(ends), dtype=np.int32).reshape(-1, 2)
+    return merging.ends[merging.lives], merging.radii[merging.lives]

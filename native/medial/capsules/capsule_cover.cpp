@@ -28,6 +28,11 @@ void check(const CapsuleCoverInput& input, const CapsuleCoverOptions& options) {
                               "; correct it.");
     }
   }
+  if (!input.radii.empty() && input.radii.size() != 2 * input.segments.size()) {
+    throw InvalidInputError("Expected two radii for each of " +
+                            std::to_string(input.segments.size()) + " segments, found " +
+                            std::to_string(input.radii.size()) + "; pass as many.");
+  }
   if (options.count < 1 || options.places < 1) {
     throw InvalidInputError("Expected at least one capsule and one place, found " +
                             std::to_string(std::min(options.count, options.places)) +
@@ -37,6 +42,12 @@ void check(const CapsuleCoverInput& input, const CapsuleCoverOptions& options) {
     throw InvalidInputError("Expected a finite tolerance of 0 or more, found " +
                             text(options.tolerance) + "; correct it.");
   }
+}
+
+void largest_first(std::vector<Capsule>& capsules) {
+  std::stable_sort(capsules.begin(), capsules.end(), [](const Capsule& one, const Capsule& other) {
+    return one.volume() > other.volume();
+  });
 }
 
 // Returns the largest capsules in the solid round the segments, by falling volume.
@@ -53,15 +64,26 @@ std::vector<Capsule> inner_capsules(const CapsuleCoverInput& input,
       },
       kOfTask);
   std::erase_if(capsules, [](const Capsule& capsule) { return !(capsule.volume() > 0); });
-  std::stable_sort(capsules.begin(), capsules.end(), [](const Capsule& one, const Capsule& other) {
-    return one.volume() > other.volume();
-  });
+  largest_first(capsules);
   if (static_cast<int64_t>(capsules.size()) > options.count) capsules.resize(options.count);
   if (capsules.empty()) {
     throw DegenerateInputError("Expected segments in the solid, found none of " +
                                std::to_string(input.segments.size()) +
                                " with an end in it; pass those of its inner axis.");
   }
+  return capsules;
+}
+
+// Returns the capsules with the given radii, by falling volume.
+std::vector<Capsule> given_capsules(const CapsuleCoverInput& input, const Frame& frame) {
+  std::vector<Capsule> capsules;
+  for (size_t k = 0; k < input.segments.size(); ++k) {
+    const auto& [a, b] = input.segments[k];
+    capsules.push_back({frame.inward(input.places[a]),
+                        frame.inward(input.places[b]),
+                        {frame.inward(input.radii[2 * k]), frame.inward(input.radii[2 * k + 1])}});
+  }
+  largest_first(capsules);
   return capsules;
 }
 
@@ -124,7 +146,8 @@ CapsuleCover capsule_cover(const CapsuleCoverInput& input, const CapsuleCoverOpt
   const SolidLattice lattice = solid.lattice(options.places, run);
   const SolidDepth depth(solid);
   begin_stage(run.progress, "Depths of capsules", 0.3, 0.6);
-  auto capsules = inner_capsules(input, options, solid, depth, run);
+  auto capsules = input.radii.empty() ? inner_capsules(input, options, solid, depth, run)
+                                      : given_capsules(input, solid.frame);
   begin_stage(run.progress, "Reach of capsules", 0.6, 1);
   const bool around = options.mode == CoverMode::around;
   const double most = around ? HUGE_VAL : solid.frame.inward(options.tolerance);

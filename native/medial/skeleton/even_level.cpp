@@ -103,10 +103,19 @@ class EvenWriter {
       if (!placing_.empty()) level_.place[i] = placing_[v];
       if (level_.place[i] >= Placing::touching) {
         level_.radius[i] = radius_[v];
-      } else if (level_.vertices[i] != before[i]) {
-        level_.radius[i] = h_.samples->nearest(e_.position[v]).distance;
+      } else {
+        const bool moved = level_.vertices[i] != before[i];
+        level_.radius[i] = radius_at(level_.vertices[i], moved ? HUGE_VAL : level_.radius[i]);
       }
     });
+  }
+
+  // Returns the radius of a vertex whose ball touches no two walls: the one that is known, or else
+  // the distance to the samples, within the faces.
+  double radius_at(const Vec3& place, double known) const {
+    const double radius = known < HUGE_VAL ? known : h_.samples->nearest(place).distance;
+    const bool has_faces = h_.on_faces && !placing_.empty();
+    return has_faces ? h_.on_faces->within_faces(place, radius) : radius;
   }
 
   const EvenMesh& e_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/relax.h"
 
+#include <algorithm>
+
+#include "base/parallel.h"
 #include "skeleton/curves.h"
 
 namespace medial {
@@ -185,7 +188,7 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);
   auto curves = fit_curves(chains, level.vertices, *h.samples, run);
-  if (to_faces && h.faces) {
+  if (to_faces && h.on_faces) {
     const std::vector<Vec3> places = tips_of(*h.faces);
     const Tips tips(places, *h.faces);
     for (size_t c = 0; c < chains.size(); ++c) {
@@ -194,6 +197,17 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
     }
   }
   Rewirer(level, h, chains, curves).rewire();
+}
+
+void draw_in_wires(Level& level, const SamplesOnFaces& samples, const Run& run) {
+  std::vector<int32_t> rows;
+  for (const Edge& wire : level.wires) rows.insert(rows.end(), wire.begin(), wire.end());
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  parallel_for(static_cast<int64_t>(rows.size()), {run.threads, nullptr, nullptr}, [&](int64_t i) {
+    double& radius = level.radius[rows[i]];
+    radius = samples.within_faces(level.vertices[rows[i]], radius);
+  });
 }
 
 }  // namespace medial

@@ -72,6 +72,12 @@ size_t SamplesOnFaces::bytes() const {
 
 bool SamplesOnFaces::are_near(const Vec3& place) const { return tree_.has_within(place, reach_); }
 
+double SamplesOnFaces::within_faces(const Vec3& centre, double radius) const {
+  const auto foot = faces_.nearer(centre, radius);
+  if (!foot || !are_near(foot->point)) return radius;
+  return std::min(radius, foot->distance + faces_.bulge(foot->triangle));
+}
+
 std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
                                                             const Vec3& at) const {
   const auto& [p, q] = samples;

@@ -37,6 +37,10 @@ class SamplesOnFaces {
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
   bool are_near(const Vec3& place) const;
+  // Returns the radius of a ball, or as much of it as leaves the faces by no more than their
+  // surface bulges over a flat triangle. Balls between samples leave faces that are closer to each
+  // other than the samples are, and would be two times too large.
+  double within_faces(const Vec3& centre, double radius) const;
   // Returns the triangle on which the sample nearest to a place lies, or -1.
   int32_t triangle_near(const Vec3& place) const { return triangle(tree_.nearest(place).id); }
   size_t bytes() const;
