@@ -850,7 +850,7 @@ class HollowSettings(Options):
 
     wall: float = number(
         "Wall",
-        "How thick the wall is that is left",
+        "How thick the wall is that is left; 0: 3 % of the diagonal of the bounding box",
         default=0.0,
         limits=(0.0, math.inf),
         soft_maximum=1000.0,

@@ -25,7 +25,7 @@ from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
-from .tab import Closed
+from .tab import InSettings
 from .translation import IN_CONTEXT, say
 
 _PRODUCTS = {"AXES": "medial axis", "SKELETONS": "skeleton"}
@@ -282,7 +282,7 @@ def copy_sequence(scene, button):
     button.of = scene.medial_axis_sequence_of
 
 
-class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sequence(InSettings, bpy.types.Panel):
     """Frames of an animation"""
 
     bl_label = "Sequence"

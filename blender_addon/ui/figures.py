@@ -20,8 +20,7 @@ from .wrapped_text import draw_wrapped
 
 
 def draw_result(context, layout, result):
-    """Its colours, its verdict, its pieces and its radii, a row each."""
-    _draw_legend(context, layout, result)
+    """Its verdict, its pieces and its radii, a row each; where its colours are shown, their legend has the radii."""
     if reason := why_outdated(context, result):
         layout.label(text=reason, icon_value=light(Light.LOOK.name))
         again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
@@ -34,7 +33,9 @@ def draw_result(context, layout, result):
     if crumbs := result.get(axis_object.CRUMBS, 0):
         text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
         draw_wrapped(context, layout, text, "INFO")
-    _draw_figures(layout, {"Radius": _range_text(context, *axis_object.radius_range(result))}, 0.3)
+    if not _draw_legend(context, layout, result):
+        radii = _range_text(context, *axis_object.radius_range(result))
+        _draw_figures(layout, {"Radius": radii}, 0.3)
 
 
 def draw_sequence(context, layout, frame):
@@ -160,17 +161,16 @@ def why_outdated(context, result):
 
 
 def _draw_legend(context, layout, thing):
-    """The range of its colours, where it is coloured; pale while no one sees them, so that no row below moves."""
+    """The range of its colours while they are seen; returns whether they are."""
     found = colour_range(thing)
-    if found is None:
-        return
+    if found is None or not shows_colours(context.space_data):
+        return False
     name, start, end = found
-    layout = layout.column()
-    layout.active = shows_colours(context.space_data)
     if name == report_object.EPSILON.name:
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
     else:
         draw_legend(layout, length_text(context, start), length_text(context, end))
+    return True
 
 
 def _range_text(context, smallest, largest):

@@ -33,6 +33,7 @@ from ..core.settings import (
 from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
+from .guide import end_guide
 from .preferences import memory_limit
 from .properties import (
     SamplingProperties,
@@ -95,6 +96,8 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         return write_result_of_part(thing, part, found.computation, frame, look, found.shown)
 
     def settle(self, made):
+        if made:
+            end_guide(bpy.context)
         if self.each_part:
             remove_other_parts(made)
 

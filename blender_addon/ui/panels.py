@@ -22,9 +22,9 @@ from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, shown_report, shown_result, shown_surface
 from .ranged_sliders import row_of_slider
 from .selected_sources import has_faces, obstacle, sources
-from .show import draw_colours, draw_source, shows_colours
+from .show import draw_colours, shows_colours
 from .shown import shown_frame, shown_thing
-from .tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
+from .tab import DETAILS, MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -68,9 +68,7 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         result, report, frame = shown_result(context), shown_report(context), shown_frame(context)
-        row = layout.row(align=True)
-        draw_colours(context, row)
-        draw_source(row, shown_thing(context))
+        draw_colours(context, layout)
         if frame is not None:
             draw_sequence(context, layout, frame)
         if result is not None:
@@ -85,7 +83,7 @@ class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
     """All other figures, and every sentence"""
 
     bl_label = "Details"
-    bl_idname = "VIEW3D_PT_medial_axis_details"
+    bl_idname = DETAILS
 
     @classmethod
     def poll(cls, context):
@@ -133,10 +131,16 @@ def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(context, column, settings)
     result = shown_result(context)
+    split = column.split(factor=0.4)  # as Blender divides the other rows
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text="Theta, Rho")
+    both = split.row(align=True)
+    both.use_property_split = False
     for name, does_little in _thresholds(result).items():
-        row = column.row()
-        row.active = not does_little
-        row.prop(settings, row_of_slider(context, name, result), slider=True)
+        cell = both.row(align=True)
+        cell.active = not does_little
+        cell.prop(settings, row_of_slider(context, name, result), text="", slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")

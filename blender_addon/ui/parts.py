@@ -10,7 +10,7 @@ from ..bridge.parts_objects import part_of_active_face, select_part, separate_pa
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
 from .properties import shown_result
-from .tab import InResult, settings_column
+from .tab import InDetails, settings_column
 from .translation import say
 from .view_place import edit_faces
 
@@ -93,7 +93,7 @@ class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_medial_axis_parts(InResult, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
     """Sheets and seams: how many there are, their colours, and what can be done with them"""
 
     bl_label = "Parts"

@@ -32,18 +32,6 @@ def memory_limit() -> MemoryLimit:
     return limit.used(output=OBJECT)
 
 
-def wants_hiding() -> bool:
-    """Whether a medial axis is hidden and shown with its source."""
-    addon = bpy.context.preferences.addons.get(ADDON)
-    return addon is not None and addon.preferences.hide_with_source
-
-
-def _switch_hiding(preferences, _context):
-    from . import hide_with_source  # which asks this module for the preference
-
-    hide_with_source.switch(preferences.hide_with_source)
-
-
 def threads() -> int:
     """The number of threads of a computation."""
     if hasattr(os, "sched_getaffinity"):
@@ -61,21 +49,16 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     cache_size: prop(CACHE_SIZE, _give_room)
     memory_limit: prop(LIMITS["memory_limit"])
     above_limit: prop(LIMITS["above_limit"])
-    hide_with_source: BoolProperty(
-        name="Hide Axis with Source",
-        description="Hide and show a medial axis together with the object that it was computed from."
-        " Blender hides no children, so the add-on looks at its results after every change",
-        update=_switch_hiding,
-    )
     show_installed: BoolProperty(
         name="Installation", description="What is installed, what memory holds, and a test of it"
     )
-    guided: BoolProperty(options={"HIDDEN"})  # the tutorial was opened, or its line dismissed
+    guided: BoolProperty(
+        options={"HIDDEN"}
+    )  # the tutorial was opened, its line dismissed, or an axis computed
 
     def draw(self, context):
         _draw_start(context, self.layout)
         _draw_memory(self.layout.box().column(), self)
-        self.layout.box().column().prop(self, "hide_with_source")
         draw_library(self.layout.box().column())
         box = self.layout.box().column()
         arrow = "DISCLOSURE_TRI_DOWN" if self.show_installed else "DISCLOSURE_TRI_RIGHT"

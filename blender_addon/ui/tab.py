@@ -5,6 +5,7 @@ from . import current_job
 
 MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
 RESULT = "VIEW3D_PT_medial_axis_result"
+DETAILS = "VIEW3D_PT_medial_axis_details"
 SETTINGS = "VIEW3D_PT_medial_axis_settings"
 
 
@@ -32,6 +33,12 @@ class InResult(Closed):
     """A panel inside that of the result."""
 
     bl_parent_id = RESULT
+
+
+class InDetails(Closed):
+    """A panel inside that of the details."""
+
+    bl_parent_id = DETAILS
 
 
 class InSettings(Closed):

@@ -38,6 +38,7 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
             copy_settings(settings, button, THICKNESS_OPTIONS)
         if settings.note:
             draw_wrapped(context, layout, settings.note, "INFO")
+        _draw_made(context, layout)
         carrier = shown_thickness(context)
         if carrier is not None:
             _draw_found(context, layout, carrier)
@@ -51,6 +52,18 @@ def _draw_options(layout, settings):
         row.prop(settings, name)
         if name == "limit":
             row.menu("VIEW3D_MT_medial_axis_thickness_limits", text="", icon="DOWNARROW_HLT")
+
+
+def _draw_made(context, layout):
+    """The buttons of what is made of walls, measured or not."""
+    if not draws_buttons(layout):
+        return
+    row = layout.row(align=True)
+    button = row.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
+    copy_settings(context.scene.medial_axis, button)
+    row.operator(
+        "object.medial_axis_hollow", icon="MESH_UVSPHERE"
+    ).wall = context.scene.medial_axis_thickness.limit
 
 
 def _draw_found(context, layout, carrier):
@@ -67,11 +80,6 @@ def _draw_found(context, layout, carrier):
         _draw_patches(context, column, carrier)
         if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
             _draw_thicken(context, layout)
-    if not carrier[of.GAP] and draws_buttons(layout):
-        button = layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
-        copy_settings(context.scene.medial_axis, button)
-        button = layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
-        button.wall = context.scene.medial_axis_thickness.limit
     draw_colours(context, layout)
     legend = layout.column()  # always there, so that no row below moves
     legend.active = shows_colours(context.space_data)

@@ -191,32 +191,6 @@ def hide(thing, viewport=False, render=False, eye=False):
     bpy.context.view_layer.update()
 
 
-@pytest.fixture
-def hiding():
-    """The preference is on, as it is for those who ask for it."""
-    preferences = bpy.context.preferences.addons[addon().__name__].preferences
-    preferences.hide_with_source = True
-    yield
-    preferences.hide_with_source = False
-
-
-def own_handlers():
-    names = (name for name in dir(bpy.app.handlers) if not name.startswith("_"))
-    lists = (v for v in (getattr(bpy.app.handlers, name) for name in names) if isinstance(v, list))
-    package = addon().__name__
-    return sorted(h.__name__ for found in lists for h in found if h.__module__.startswith(package))
-
-
-def test_nothing_runs_after_updates_and_frames_unless_it_is_asked_for():
-    preferences = bpy.context.preferences.addons[addon().__name__].preferences
-    usual = own_handlers()
-    assert not {"_after_update", "_after_frame"} & set(usual)
-    preferences.hide_with_source = True
-    assert own_handlers() == sorted([*usual, "_after_frame", "_after_update"])
-    preferences.hide_with_source = False
-    assert own_handlers() == usual
-
-
 def test_an_axis_stays_visible_beside_its_hidden_source():
     source, axis = with_axis()
     hide(source, viewport=True)
@@ -228,69 +202,6 @@ def with_axis(**settings):
     compute(**EVEN, **settings)
     bpy.context.view_layer.update()
     return source, result_of(source)
-
-
-@pytest.mark.parametrize("way", ["viewport", "eye"])
-def test_axis_is_hidden_and_shown_with_its_source(way, hiding):
-    source, axis = with_axis()
-    hide(source, **{way: True})
-    assert hidden(axis) == hidden(source) and any(hidden(axis))
-    hide(source)
-    assert hidden(axis) == (False, False, False)
-
-
-def test_axis_is_rendered_without_its_source(hiding):
-    source, axis = with_axis()
-    hide(source, render=True)
-    assert hidden(axis) == (False, False, False)
-
-
-def test_an_axis_that_an_artist_shows_stays_beside_a_hidden_source(hiding):
-    source, axis = with_axis()
-    hide(source, eye=True)
-    hide(axis)
-    source.location.x += 1.0
-    select(axis)
-    bpy.context.view_layer.update()
-    assert axis.visible_get() and not source.visible_get()
-
-
-def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source(hiding):
-    source, axis = with_axis()
-    hide(axis, eye=True)
-    hide(source, eye=True)
-    hide(source)
-    assert source.visible_get() and not axis.visible_get()
-
-
-def test_only_a_child_of_its_source_is_hidden_with_it(hiding):
-    source, axis = with_axis(parent=False)
-    hide(source, viewport=True, render=True, eye=True)
-    assert hidden(axis) == (False, False, False)
-
-
-def test_each_view_layer_hides_its_own(hiding):
-    source, axis = with_axis()
-    other = bpy.context.scene.view_layers.new("Other")
-    other.update()
-    source.hide_set(True, view_layer=other)
-    other.update()
-    assert axis.hide_get(view_layer=other) and not axis.hide_get()
-    source.hide_set(False, view_layer=other)
-    other.update()
-    assert not axis.hide_get(view_layer=other)
-
-
-def test_an_animated_source_hides_its_axis(hiding):
-    source, axis = with_axis()
-    for frame, value in ((1, False), (3, True), (5, False)):
-        source.hide_viewport = value
-        source.keyframe_insert("hide_viewport", frame=frame)
-    found = []
-    for frame in (1, 3, 4, 5):
-        bpy.context.scene.frame_set(frame)
-        found.append(axis.hide_viewport)
-    assert found == [False, True, True, False]
 
 
 def test_panel_finds_the_axis_of_whatever_is_selected():
@@ -507,14 +418,6 @@ def test_computing_changes_no_shading():
     ellipsoid()
     compute(**EVEN)
     assert (shading.type, shading.color_type) == before
-
-
-def test_source_as_wire_and_back():
-    source = ellipsoid()
-    compute(**EVEN)
-    for expected in ("WIRE", "TEXTURED"):
-        bpy.ops.object.medial_axis_source_as_wire(name=result_of(source).name)
-        assert source.display_type == expected
 
 
 def test_panel_says_which_condition_binds():
