@@ -13,6 +13,7 @@ from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
 from .legend import draw_legend, light
+from .plain_words import draw_told, warned
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
 from .translation import say
@@ -58,7 +59,7 @@ def draw_report(context, layout, report):
         },
     )
     for warning in report.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
     _draw_legend(context, layout, report)
 
 
@@ -74,7 +75,7 @@ def draw_details(context, layout, result):
             "Vertices": f"{len(result.data.vertices):,}",
             "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
             "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
-            "Not Crisp": f"{result.get(axis_object.REFUSED, 0):,}",
+            "Not on Edges": f"{result.get(axis_object.REFUSED, 0):,}",
             "Time": f"{result.get(output_object.SECONDS, 0.0):.2f} s",
         },
     )
@@ -124,22 +125,20 @@ def draw_surface(context, layout, surface):
         },
     )
     for warning in surface.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
 
 
 def _draw_verdict(layout, result):
     """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
     name = result.get(axis_object.LIGHT)
-    row = layout.row()
     if name not in WHY:  # of an older version
         return
+    row = layout.split(factor=0.88)  # in a row, half of it would be the question mark's
     row.label(
         text=say(in_short(result[axis_object.VERDICT])), icon_value=light(name), translate=False
     )
     if manual.has(WHY[name].partition("#")[0]):
-        why = row.row()
-        why.alignment = "RIGHT"
-        why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
+        row.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
 def _draw_pieces(layout, result):

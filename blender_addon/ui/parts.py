@@ -9,6 +9,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
+from .plain_words import told
 from .properties import shown_result
 from .tab import InDetails, settings_column
 from .translation import say
@@ -87,7 +88,7 @@ class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
         try:
             collection = separate_parts(_axis(context))
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         self.report({"INFO"}, say(f"{len(collection.objects):,} parts in '{collection.name}'"))
         return {"FINISHED"}

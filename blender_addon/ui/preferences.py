@@ -14,6 +14,7 @@ from ..core.settings import CACHE_SIZE, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .asset_library import draw_library
 from .manual import draw_manual
+from .plain_words import draw_told
 from .properties import prop
 from .translation import say
 from .wrapped_text import draw_wrapped
@@ -73,7 +74,7 @@ def _draw_start(context, layout):
     """Draws the place of the panel, a problem of the compiled module, and links to the manual."""
     draw_wrapped(context, layout, "3D Viewport > Sidebar (N) > Medial Axis", "INFO")
     if problem := native.problem():
-        draw_wrapped(context, layout, problem, "ERROR")
+        draw_told(context, layout, problem, "ERROR")
     draw_manual(layout)
 
 

@@ -166,10 +166,7 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def summary(self, found):
         skeleton = found.skeleton
-        return (
-            f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops; "
-            f"{found.chosen.reason}"
-        )
+        return f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops"
 
 
 class OBJECT_OT_medial_axis_armature(
@@ -243,7 +240,7 @@ class OBJECT_OT_medial_axis_armature(
 
     def summary(self, rig):
         skeleton = rig.made_of.skeleton
-        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends; {rig.made_of.chosen.reason}"
+        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends"
 
 
 class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.types.PropertyGroup):

@@ -6,10 +6,10 @@ import bpy
 from ..bridge import output_object, skeleton_object
 from ..bridge.armature_object import BONES, armature_of, is_armature
 from ..bridge.skeleton_object import is_skeleton, skeleton_of
+from .plain_words import draw_told, warned
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
 from .tab import Closed, draws_buttons, settings_column
 from .translation import say
-from .wrapped_text import draw_wrapped
 
 
 class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
@@ -57,7 +57,7 @@ def _draw_figures(context, layout, thing):
         row.label(text=say(label), translate=False)
         row.label(text=f"{number:,}", translate=False)
     for warning in thing.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
 
 
 CLASSES = (VIEW3D_PT_medial_axis_skeleton,)

@@ -337,7 +337,7 @@ def test_refusals_leave_nothing_behind():
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.curve.primitive_bezier_circle_add()
     bpy.context.object.data.bevel_depth = 0.2
-    refuse("choose Bind None", operator="medial_axis_armature")
+    refuse("choose Weights None", operator="medial_axis_armature")
 
 
 def imported(name):
