@@ -646,6 +646,11 @@ class Look(Options):
         default=1.0,
         limits=(0.0, 4.0),
     )
+    lone_points: bool = switch(
+        "Lone Points",
+        "Single points are shown as balls; off: only where the axis is nothing else",
+        default=False,
+    )
     smallest_island: float = number(
         "Smallest Island",
         "Pieces of an axis as published with fewer of its facets than this are not shown; "

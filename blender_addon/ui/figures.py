@@ -7,6 +7,7 @@ from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
+from ..bridge.wires import LONE_POINTS
 from ..core.axis.topology import betti_in_short
 from ..core.axis.verdict import Light, in_short
 from . import manual
@@ -33,6 +34,9 @@ def draw_result(context, layout, result):
         draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
     if crumbs := result.get(axis_object.CRUMBS, 0):
         text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
+        draw_wrapped(context, layout, text, "INFO")
+    if lone := result.get(LONE_POINTS, 0):
+        text = "1 lone point hidden" if lone == 1 else f"{lone:,} lone points hidden"
         draw_wrapped(context, layout, text, "INFO")
     if not _draw_legend(context, layout, result):
         radii = _range_text(context, *axis_object.radius_range(result))

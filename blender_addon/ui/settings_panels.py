@@ -83,6 +83,7 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
             column.prop(settings, "smallest_island", slider=True)
         else:
             column.prop(settings, "crumbs", slider=True)
+        column.prop(settings, "lone_points")
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):
             column.prop(*width, text="Wire Width")

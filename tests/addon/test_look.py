@@ -290,7 +290,7 @@ def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
     _, result = curve_of_a_torus()
     assert len(result.data.edges) > 20 and not result.data.polygons
     seen = evaluated(result)
-    assert len(seen.polygons) >= 8 * len(result.data.edges)
+    assert len(seen.polygons) >= 12 * len(result.data.edges)
     assert {material.name for material in seen.materials if material} == {"Medial Axis Radius"}
     assert "ma_color" in seen.attributes and len(seen.attributes["ma_color"].data)
 
@@ -309,13 +309,13 @@ def test_wires_are_as_thin_as_wanted():
     assert kept == pytest.approx(0.05), "what the artist chose stays"
 
 
-def test_no_tube_and_no_ball_is_thicker_than_the_ball_of_the_axis():
+def test_no_tube_is_thicker_than_a_fifth_of_the_ball_of_the_axis_and_no_ball_than_that():
     _, result = curve_of_a_torus()
     inputs = addon("bridge.nodes.inputs")
     inputs.set_inputs(wires_on(result), {"Width": 100.0})
     radius = attribute(result.data, "ma_radius")
     height = np.ptp(positions(evaluated(result))[:, 2])
-    assert height <= np.ptp(positions(result.data)[:, 2]) + 2.001 * radius.max()
+    assert height <= np.ptp(positions(result.data)[:, 2]) + 2.001 * radius.max() / 5
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     ball = bpy.context.object
     compute(form="CLEAN")
@@ -325,13 +325,46 @@ def test_no_tube_and_no_ball_is_thicker_than_the_ball_of_the_axis():
     assert size == pytest.approx([2.0, 2.0, 2.0], rel=0.02)
 
 
+def test_wires_end_in_balls():
+    """A tube along a straight axis is longer than that by its own radius at both ends."""
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.1, depth=4.0)
+    compute(form="CURVE", sampling="SURFACE", samples=4_000)
+    result = bpy.context.object
+    width = addon("bridge.nodes.inputs").input_of(wires_on(result), "Width")
+    radius = attribute(result.data, "ma_radius")
+    ends = np.argsort(positions(result.data)[:, 2])[[0, -1]]
+    longer = np.minimum(width, 0.2 * radius[ends]).sum()
+    long = np.ptp(positions(evaluated(result))[:, 2])
+    assert long == pytest.approx(np.ptp(positions(result.data)[:, 2]) + longer, rel=1e-3)
+
+
+def test_lone_points_are_counted_and_shown_on_demand():
+    """A ball beside a block: its axis is a point, which is shown where there is nothing else."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    ball = bpy.context.object
+    compute(form="CLEAN")
+    assert len(evaluated(result_of(ball)).polygons) and not result_of(ball)["ma_lone_points_hidden"]
+    block = link("Block", *crossing_plates())
+    ball.location, block.location = (9, 0, 0), (0, 0, 0)
+    select(ball, block)
+    bpy.context.view_layer.objects.active = block
+    bpy.ops.object.join()
+    settings = {"form": "CLEAN", "sampling": "SURFACE", "samples": 3000}
+    for shown in (False, True):
+        select(block)
+        compute(lone_points=shown, **settings)
+        result = result_of(block)
+        far = positions(evaluated(result))[:, 0].max() > 9.01
+        assert far == shown and (result["ma_lone_points_hidden"] == 0) == shown
+
+
 def test_many_wires_have_tubes_of_few_sides_or_none():
     wires, inputs = addon("bridge.wires"), addon("bridge.nodes.inputs")
-    assert wires.detail_of(100, 1) == (8, 3)
+    assert wires.detail_of(100, 1) == (12, 3)
     assert wires.detail_of(50_000, 3_000) == (4, 1)
     assert wires.detail_of(200_000, 20_000) == (0, 0)
     source, result = curve_of_a_torus()
-    assert [inputs.input_of(wires_on(result), n) for n in ("Sides", "Subdivisions")] == [8, 3]
+    assert [inputs.input_of(wires_on(result), n) for n in ("Sides", "Subdivisions")] == [12, 3]
     edges = len(result.data.edges)
     inputs.set_inputs(wires_on(result), {"Sides": 0})
     assert not len(evaluated(result).polygons) and len(evaluated(result).edges) == edges
