@@ -568,7 +568,7 @@ class RigSettings(Options):
     per_limb: int = integer(
         "Bones per Limb",
         "The number of bones along each limb, where there is room for so many; "
-        "0: as many as its bends and its length need",
+        "0: as many as its bends and its length need, and at least three",
         default=0,
         limits=(0, 100),
         soft_limits=(0, 8),

@@ -754,6 +754,7 @@ def scene_tutorial():
     yield patience(0.7)
     look("04")
     source.hide_set(False)
+    select(source)
     panel.simplify = 4.0
     yield patience(1.5)
     look("05")
@@ -917,7 +918,7 @@ def scene_pose_a_body():
         select(thing)
         with in_viewport():
             bpy.ops.object.mode_set(mode="POSE")
-        for bone, angle in (("limb.01.01.L", -50), ("limb.02.01.L", 50), ("limb.02.02.L", -50)):
+        for bone, angle in (("arm.01.L", -50), ("leg.01.L", 50), ("leg.02.L", -50)):
             yield from turned_by_mouse(thing, bone, angle)
         assert_left_side_moved(source)
         look(f"{bind.lower()}-2-limbs")
