@@ -109,16 +109,22 @@ class WM_OT_medial_axis_more(bpy.types.Operator):
 
     text: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
-    def execute(self, context):
-        def draw(popup, _context):
-            for line in textwrap.wrap(self.text, _WIDTH):
-                popup.layout.label(text=line, translate=False)
-
-        context.window_manager.popup_menu(draw)
+    def execute(self, _context):
         return {"FINISHED"}
 
+    def invoke(self, context, _event):
+        return context.window_manager.invoke_popup(self, width=_PIXELS)
 
-_WIDTH = 70  # letters of a line in the window that the question mark opens
+    def draw(self, _context):
+        column = self.layout.column(align=True)
+        for line in textwrap.wrap(self.text, _WIDTH):
+            column.label(text=line, translate=False)
+
+
+_WIDTH, _PIXELS = (
+    65,
+    450,
+)  # of the window that the question mark opens, in letters and on the screen
 
 CLASSES = (WM_OT_medial_axis_more,)
 

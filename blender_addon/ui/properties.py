@@ -43,6 +43,7 @@ from ..core.settings import (
 )
 from . import apply_later, current_job
 from .ranged_sliders import with_shares
+from .tab import draw_setting
 from .translation import IN_CONTEXT
 
 # These words of a FloatProperty follow from the unit of its option.
@@ -102,7 +103,7 @@ def draw_sampling(layout, properties, of_faces=(), names=SAMPLING_OPTIONS):
             continue
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing, of_faces)
-        row.prop(properties, name)
+        draw_setting(row.column(), properties, name)
 
 
 def _is_of_points():

@@ -8,7 +8,7 @@ from ..core.settings import AS_IN_PAPER, SAMPLING_OPTIONS, Form, applies_to_form
 from .form_panel import draw_more_of_form
 from .properties import copy_settings, draw_sampling, settings_from
 from .shown import shown_thing
-from .tab import SETTINGS, Closed, InSettings, draws_buttons, settings_column
+from .tab import SETTINGS, Closed, InSettings, draw_setting, draws_buttons, settings_column
 
 
 class VIEW3D_PT_medial_axis_settings(Closed, bpy.types.Panel):
@@ -59,7 +59,7 @@ class VIEW3D_PT_medial_axis_method(InSettings, bpy.types.Panel):
         for name in ("rule", "criteria", "limit_set", "mesh", "sides"):
             row = column.row()
             row.active = name != "mesh" or applies_to_form(name, Form[settings.form])
-            row.prop(settings, name)
+            draw_setting(row.column(), settings, name)
         draw_sampling(column, settings, settings_from(settings).options_of_faces, AS_IN_PAPER)
         column.prop(settings, "each_part")
 
@@ -80,9 +80,9 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
         column.prop(thing, "show_in_front", text="In Front")
         column.prop(settings, "parent")
         if Form[settings.form] is Form.PUBLISHED:
-            column.prop(settings, "smallest_island", slider=True)
+            draw_setting(column, settings, "smallest_island", slider=True)
         else:
-            column.prop(settings, "crumbs", slider=True)
+            draw_setting(column, settings, "crumbs", slider=True)
         column.prop(settings, "lone_points")
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):

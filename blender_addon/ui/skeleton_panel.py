@@ -8,7 +8,7 @@ from ..bridge.armature_object import BONES, armature_of, is_armature
 from ..bridge.skeleton_object import is_skeleton, skeleton_of
 from .plain_words import draw_told, warned
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
-from .tab import Closed, draws_buttons, settings_column
+from .tab import Closed, draw_setting, draws_buttons, settings_column
 from .translation import say
 
 
@@ -23,7 +23,7 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
             "mirror",
             "bind",
         ):  # the others are in the panels of the operators
-            column.prop(context.scene.medial_axis_skeleton, name)
+            draw_setting(column, context.scene.medial_axis_skeleton, name)
         converts = bpy.ops.object.medial_axis_to_curve.poll()
         if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
             for operator, icon in SKELETON_OPERATORS.items():

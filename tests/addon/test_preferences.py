@@ -31,7 +31,7 @@ class Layout:
         assert name in owner.bl_rna.properties
         self.drawn.append(name)
 
-    def operator(self, name, text="", icon="NONE"):
+    def operator(self, name, text="", icon="NONE", emboss=True):
         self.drawn.append(text or name)
         return SimpleNamespace()
 

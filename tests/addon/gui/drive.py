@@ -52,6 +52,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "sequence": True,
     "cancel_sequence_with_escape": True,
     "quit_while_running": True,
+    "plain_words": True,
     "german": True,
     "missing_module": False,
 }

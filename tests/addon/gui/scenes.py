@@ -29,6 +29,7 @@ PATIENCE = 90.0
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
+MORE = (49, 81)  # beside a note
 RECONSTRUCT = (102, 81)  # where there are points without faces
 THETA_LEFT, THETA_RIGHT = (112, 153), (84, 153)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
@@ -45,6 +46,7 @@ SKELETON, THICKNESS, SETTINGS = (150, 208), (150, 234), (150, 260)
     (150, 338),
 )
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
+CLEAN_UP, METHOD = (150, 286), (150, 338)  # in Settings before there is a result
 SAMPLING = (150, 391)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 334), (102, 360)
 MEASURE_THICKNESS, THICKEN, DIVIDE = (102, 382), (102, 521), (102, 542)
@@ -1444,6 +1446,29 @@ def scene_quit_while_running():
     assert threads()
 
 
+def scene_plain_words():
+    """Flat text is told in one line; the question mark beside it has the whole sentence."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.object.text_add()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield lambda: bpy.context.scene.medial_axis.note
+    yield patience(1.0)
+    yield from point(viewport().x + 200, 300)  # Blender's own message goes with the mouse
+    look("told")
+    for _ in range(2):  # Blender's own message takes the first one
+        yield from click(*at(MORE))
+    yield patience(1.0)
+    look("more")
+    yield from point(viewport().x + 200, 300)
+    bpy.context.scene.medial_axis.note = ""
+    yield patience(1.0)
+    for header in (SETTINGS, METHOD, CLEAN_UP):
+        yield from fold(header)
+    look("settings")
+
+
 def scene_german():
     """The sidebar with a result, and the preferences with a self-test, where Blender speaks German."""
     bpy.context.preferences.view.language = "de_DE"
@@ -1472,7 +1497,7 @@ def scene_missing_module():
     look("message")
     native = addon("core.machine.native")
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
-    yield from click(*at((102, 365)))  # the button lies below the message; it is grey
+    yield from click(*at((102, 128)))  # the button lies below the message; it is grey
     yield 0.5
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll()
