@@ -112,7 +112,7 @@ def write_result(
     place(result, frame)
     if result.get("ma_side") != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface
-    show_wires(result, axis)
+    show_wires(result, axis, look.lone_points)
     result[BOX] = box
     _remember(result, source, computation)
     result[TURNED] = computation.turned
@@ -133,7 +133,7 @@ def update_result(
     `between_steps` is as in `replace_mesh`.
     """
     replace_mesh(result, partial(_axis_mesh, shown, look), between_steps)
-    show_wires(result, shown.axis)
+    show_wires(result, shown.axis, look.lone_points)
     result[TOPOLOGY] = topology
     _remember_shown(result, shown, settings, look)
 

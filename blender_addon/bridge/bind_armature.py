@@ -44,18 +44,18 @@ def check_bindable(source: bpy.types.Object, bind: bool, replace_weights: bool =
         )
     if bind and (source.type != "MESH" or source.data.library is not None):
         raise InvalidInputError(
-            f"Expected a mesh of this file to bind, found '{source.name}', which is not; choose Bind None"
+            f"Expected a mesh of this file to bind, found '{source.name}', which is not; choose Weights None"
         )
     if bind and not 0.0 < abs(source.matrix_world.determinant()) < float("inf"):
         raise InvalidInputError(
             f"Expected a scale that Blender can invert, found one too large or too small of '{source.name}'; "
-            "apply the scale, or choose Bind None"
+            "apply the scale, or choose Weights None"
         )
     made = rig_of(source)
     if bind and not replace_weights and made is not None and _is_painted(source, made):
         raise InvalidInputError(
             f"Expected the weights of '{source.name}' as they were made, found some painted since; "
-            "choose Bind None to keep them, or Replace Weights"
+            "choose Weights None to keep them, or Replace Weights"
         )
 
 

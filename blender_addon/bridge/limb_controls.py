@@ -10,10 +10,10 @@ import bpy
 
 from ..core.settings import LimbControl
 from ..core.skeleton.names import target_of
-from .output_object import is_gone, new_object
+from .output_object import new_object
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from mathutils import Vector
 
@@ -98,19 +98,6 @@ def constrain(
             _reach(armature, chain, controls[0])
         elif controls:
             _lie_along(source, armature, chain, controls)
-
-
-def controls_that_end_with(bone: bpy.types.PoseBone) -> Iterator[tuple[str, str]]:
-    """The controls of the limb that a bone ends, by name, each with the bone of the limb that it goes with."""
-    for constraint in bone.constraints:
-        if constraint.name != IK:
-            continue
-        if constraint.type == "IK":
-            yield constraint.subtarget, bone.name
-        elif constraint.type == "SPLINE_IK" and not is_gone(constraint.target):
-            chain = [limb.name for limb in _chain(bone, constraint)]
-            hooks = (m for m in constraint.target.modifiers if m.type == "HOOK")
-            yield from zip((hook.subtarget for hook in hooks), [*chain, bone.name], strict=False)
 
 
 def _chain(bone: bpy.types.PoseBone, constraint: bpy.types.Constraint) -> list[bpy.types.PoseBone]:

@@ -82,9 +82,16 @@ def check_size(skeleton: Skeleton) -> None:
         )
 
 
+_SHARE = 0.2  # of the balls: so thick are tubes along the curve, as wires of an axis are at most
+_SIDES_OF_QUARTER = 2  # between the four corners of the profile: twelve sides
+
+
 def new_curve(name: str) -> bpy.types.Curve:
+    """A curve that is seen in renders; the radius of each point is that of its ball."""
     curve = bpy.data.curves.new(name, "CURVE")
     curve.dimensions = "3D"
+    curve.bevel_depth, curve.bevel_resolution = _SHARE, _SIDES_OF_QUARTER
+    curve.use_fill_caps = True
     return curve
 
 

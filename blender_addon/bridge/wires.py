@@ -2,8 +2,9 @@
 """Edges without a face and single points as tubes and balls: Blender draws them as hairlines, and renders none.
 
 They are made by a modifier of Geometry Nodes, so the mesh itself, its counts and what is exported of it stay the axis.
-No tube and no ball is thicker than the ball of the axis there. The more of them there are, the fewer faces each has:
-Blender makes them anew in its main thread after every change.
+No tube is thicker than a fifth of the ball of the axis there, and tubes end in balls of their own width. Single points
+are shown where the look asks for them, or where the axis is nothing else; of a scan they are noise. The more of them
+there are, the fewer faces each has: Blender makes them anew in its main thread after every change.
 """
 
 from __future__ import annotations
@@ -24,20 +25,26 @@ if TYPE_CHECKING:
 
 NAME = "Medial Axis Wires"
 WIRES = "ma_wires"  # how many edges without a face and single points a result has
+LONE_POINTS = "ma_lone_points_hidden"  # how many single points of a result are not shown
 DETAIL = "ma_wires_detail"  # Sides and Subdivisions as they were set by the numbers of wires
-_WIDTH, _SIDES, _SUBDIVISIONS = "Width", "Sides", "Subdivisions"
+_WIDTH, _SIDES, _SUBDIVISIONS, _POINTS = "Width", "Sides", "Subdivisions", "Points"
+_SHARE = 0.2  # of the ball of the axis: the most that a tube may be thick
+_MOST_SIDES = 12
 _THIN = 0.004  # radius of a tube, as a share of the size of the axis
 _THICKER = 2.0  # balls than tubes
 _MOST_FACES = 200_000  # of all tubes, and of all balls
 _FACES_OF_BALLS = {3: 320, 2: 80, 1: 20}  # by Subdivisions
 
 
-def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
+def show_wires(thing: bpy.types.Object, axis: MedialAxis, lone_points: bool = False) -> None:
     """Give an object tubes and balls where its axis has wires and single points, and take them away where not.
 
-    Where an artist removed the modifier from an object that had wires, it does not come back.
+    Single points are shown where `lone_points` says so, or where there is nothing else. Where an artist removed the
+    modifier from an object that had wires, it does not come back.
     """
-    points = _single_points(axis)
+    points, ends = _points_and_ends(axis)
+    shown = lone_points or not (axis.facets or len(axis.edges))
+    thing[LONE_POINTS] = 0 if shown else points
     count, before = len(axis.edges) + points, thing.get(WIRES, 0)
     thing[WIRES] = count
     modifier = thing.modifiers.get(NAME)
@@ -52,12 +59,14 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
         thing.modifiers.remove(modifier)
         return
     if modifier is not None:
-        _set_detail(thing, modifier, detail_of(len(axis.edges), points))
+        _set_detail(thing, modifier, detail_of(len(axis.edges), ends + points * shown))
+        if has_inputs(modifier.node_group, _POINTS):
+            set_inputs(modifier, {_POINTS: bool(shown)})
 
 
 def detail_of(edges: int, points: int) -> tuple[int, int]:
     """(sides of each tube, subdivisions of each ball) for these numbers of them; 0 where there are too many to show."""
-    sides = min(8, _MOST_FACES // max(edges, 1))
+    sides = min(_MOST_SIDES, _MOST_FACES // max(edges, 1))
     fitting = (n for n, faces in _FACES_OF_BALLS.items() if points * faces <= _MOST_FACES)
     return (sides if sides >= 3 else 0), next(fitting, 0)
 
@@ -86,12 +95,14 @@ def _set_detail(
         thing[DETAIL] = detail
 
 
-def _single_points(axis: MedialAxis) -> int:
-    """The number of vertices without a facet and an edge."""
-    used = np.zeros(len(axis.vertices), np.bool_)
-    used[axis.face_vertices] = True
-    used[axis.edges.ravel()] = True
-    return int(np.count_nonzero(~used))
+def _points_and_ends(axis: MedialAxis) -> tuple[int, int]:
+    """The numbers of vertices without a facet and an edge, and of those where wires alone end or fork."""
+    wires = np.bincount(axis.edges.ravel(), minlength=len(axis.vertices))
+    bare = np.ones(len(axis.vertices), np.bool_)
+    bare[axis.face_vertices] = False
+    return tuple(
+        int(np.count_nonzero(bare & of)) for of in (wires == 0, (wires == 1) | (wires > 2))
+    )
 
 
 def _size(axis: MedialAxis) -> float:
@@ -101,7 +112,7 @@ def _size(axis: MedialAxis) -> float:
 
 def wires_group() -> bpy.types.NodeTree:
     """The node group, made where the file has none with these inputs; other changes that an artist made in it stay."""
-    inputs = (_WIDTH, _SIDES, _SUBDIVISIONS)
+    inputs = (_WIDTH, _SIDES, _SUBDIVISIONS, _POINTS)
     for found in bpy.data.node_groups:
         if found.library is None and found.name.startswith(NAME) and has_inputs(found, *inputs):
             return found
@@ -111,12 +122,12 @@ def wires_group() -> bpy.types.NodeTree:
 def _new_group() -> bpy.types.NodeTree:
     tree = Tree(NAME)
     width = tree.number(
-        _WIDTH, 0.01, "The radius of tubes; where balls are smaller, it is theirs", "DISTANCE"
+        _WIDTH, 0.01, "The radius of tubes, at most a fifth of that of the ball there", "DISTANCE"
     )
     sides = tree.input(
         "NodeSocketInt",
         _SIDES,
-        8,
+        _MOST_SIDES,
         "Of each tube; below 3 there are none",
         min_value=0,
         max_value=64,
@@ -129,7 +140,23 @@ def _new_group() -> bpy.types.NodeTree:
         min_value=0,
         max_value=6,
     )
-    parts = (_tubes(tree, width, sides), _balls(tree, width, level))
+    points = tree.input("NodeSocketBool", _POINTS, False, "Single points are shown as balls, too")
+    radius = tree.attribute(RADIUS.name)
+    thin = tree.math("MINIMUM", width, tree.math("MULTIPLY", radius, _SHARE))
+    thick = tree.math("MINIMUM", tree.math("MULTIPLY", width, _THICKER), radius)
+    neighbours = tree.node("GeometryNodeInputMeshVertexNeighbors").node.outputs
+    edges, faces = neighbours["Vertex Count"], neighbours["Face Count"]
+    bare = tree.compare("LESS_THAN", faces, 0.5)
+    lone = tree.compare("LESS_THAN", edges, 0.5)
+    # A wire goes on where it has two neighbours; elsewhere it ends or forks.
+    ends = tree.logic("AND", bare, tree.compare("GREATER_THAN", _away_from_two(tree, edges), 0.5))
+    has_tubes = tree.compare("GREATER_THAN", sides, 2.5)
+    ends = tree.logic("AND", tree.logic("AND", ends, tree.logic("NOT", lone)), has_tubes)
+    parts = (
+        _tubes(tree, thin, sides),
+        _balls(tree, thin, level, ends),
+        _balls(tree, thick, level, tree.logic("AND", lone, points)),
+    )
     painted = tree.node(
         "GeometryNodeSetMaterial",
         _joined(tree, *parts),
@@ -146,19 +173,17 @@ def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
     return whole
 
 
-def _without(tree: Tree, kind: str, if_shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-    """True where an element has no neighbours, as an input node counts them, and is to be shown."""
-    return tree.logic("AND", tree.logic("NOT", tree.node(kind)), if_shown)
+def _away_from_two(tree: Tree, count: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    return tree.math("ABSOLUTE", tree.math("SUBTRACT", count, 2.0))
 
 
 def _tubes(
-    tree: Tree, width: bpy.types.NodeSocket, sides: bpy.types.NodeSocket
+    tree: Tree, radius: bpy.types.NodeSocket, sides: bpy.types.NodeSocket
 ) -> bpy.types.NodeSocket:
     """Tubes along the edges that have no face."""
     shown = tree.compare("GREATER_THAN", sides, 2.5)
-    alone = _without(tree, "GeometryNodeInputMeshEdgeNeighbors", shown)
-    curves = tree.node("GeometryNodeMeshToCurve", tree.geometry, alone)
-    radius = tree.math("MINIMUM", width, tree.attribute(RADIUS.name))
+    alone = tree.logic("NOT", tree.node("GeometryNodeInputMeshEdgeNeighbors"))
+    curves = tree.node("GeometryNodeMeshToCurve", tree.geometry, tree.logic("AND", alone, shown))
     curves = tree.node("GeometryNodeSetCurveRadius", named={"Curve": curves, "Radius": radius})
     circle = tree.node(
         "GeometryNodeCurvePrimitiveCircle",
@@ -175,21 +200,23 @@ def _tubes(
 
 
 def _balls(
-    tree: Tree, width: bpy.types.NodeSocket, level: bpy.types.NodeSocket
+    tree: Tree,
+    radius: bpy.types.NodeSocket,
+    level: bpy.types.NodeSocket,
+    where: bpy.types.NodeSocket,
 ) -> bpy.types.NodeSocket:
-    """Balls at the vertices that have no edge."""
-    shown = tree.compare("GREATER_THAN", level, 0.5)
-    alone = _without(tree, "GeometryNodeInputMeshVertexNeighbors", shown)
-    radius = tree.attribute(RADIUS.name)
-    size = tree.math("MINIMUM", tree.math("MULTIPLY", width, _THICKER), radius)
+    """Balls at some of the vertices."""
+    shown = tree.logic("AND", where, tree.compare("GREATER_THAN", level, 0.5))
     points = tree.node(
-        "GeometryNodeMeshToPoints", named={"Mesh": tree.geometry, "Selection": alone}
+        "GeometryNodeMeshToPoints", named={"Mesh": tree.geometry, "Selection": shown}
     )
     ball = tree.node(
         "GeometryNodeMeshIcoSphere",
         named={"Radius": 1.0, "Subdivisions": tree.math("MAXIMUM", level, 1.0)},
     )
+    round_ball = tree.node("GeometryNodeSetShadeSmooth", ball)
     balls = tree.node(
-        "GeometryNodeInstanceOnPoints", named={"Points": points, "Instance": ball, "Scale": size}
+        "GeometryNodeInstanceOnPoints",
+        named={"Points": points, "Instance": round_ball, "Scale": radius},
     )
     return tree.node("GeometryNodeRealizeInstances", balls)

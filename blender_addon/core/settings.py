@@ -129,6 +129,9 @@ SAMPLING_OPTIONS = (
     "seed",
 )
 
+# Readers of the paper know these; the panel has them under Method.
+AS_IN_PAPER = ("wrap_opening", "epsilon", "budget", "keep_vertices", "pairs")
+
 
 def applies_to_form(name: str, form: Form) -> bool:
     """Whether an option changes anything for a Form."""
@@ -191,7 +194,7 @@ class Settings(Options):
         unit="%",
     )
     erode: float = number(
-        "Erode",
+        "Trim Rims",
         "Let the rims of sheets recede to where they are thicker than this, in percent of the "
         "diagonal of the bounding box",
         default=0.0,
@@ -200,7 +203,7 @@ class Settings(Options):
         unit="%",
     )
     spike: float = number(
-        "Spikes",
+        "Remove Spikes",
         "Drop the narrow parts of sheets, which lie in none of their discs that are thicker than this, in percent "
         "of the diagonal of the bounding box; rims of broad parts stay",
         default=0.0,
@@ -209,7 +212,7 @@ class Settings(Options):
         unit="%",
     )
     limb: float = number(
-        "Limbs",
+        "Shortest Limb",
         "Drop branches of single edges that are shorter than this, in percent of the diagonal "
         "of the bounding box",
         default=4.0,
@@ -225,7 +228,7 @@ class Settings(Options):
         limits=(0.0, 1.0),
     )
     crisp: bool = switch(
-        "Crisp",
+        "Sharp Edges",
         "Balls touch the faces themselves, and sheets reach the sharp edges; off: balls touch the "
         "samples of the faces, which takes less time, most of all on smooth bodies. It matters only "
         "where the faces decide what is inside",
@@ -259,7 +262,7 @@ class Settings(Options):
         },
     )
     sides: SidesFrom = choice(
-        "Inside From",
+        "Inside Decided By",
         "What tells inside from outside",
         default=SidesFrom.AUTOMATIC,
         items={
@@ -335,7 +338,7 @@ class Settings(Options):
             Mesh.VORONOI: (
                 "Voronoi",
                 "The facets of the Voronoi diagram of the samples as they are, each between two of them; "
-                "Crisp moves none",
+                "Sharp Edges moves none",
             ),
         },
     )
@@ -362,7 +365,7 @@ class Settings(Options):
         },
     )
     prepare: Prepare = choice(
-        "Prepare",
+        "Denoise",
         "What is done to noisy points and faces, as of scans and voxels, before they are analysed",
         default=Prepare.AUTOMATIC,
         items={
@@ -409,7 +412,7 @@ class Settings(Options):
     )
     wrap_opening: float = number(
         "Wrap Opening",
-        "The width of openings that Inside From Wrap closes, in percent of the diagonal; smaller "
+        "The width of openings that Inside Decided By: Wrap closes, in percent of the diagonal; smaller "
         "ones show more detail and take longer",
         default=1.0,
         limits=(0.25, 50.0),
@@ -501,13 +504,13 @@ class SkeletonSettings(Options):
     """The branches that a skeleton keeps, and how exactly it follows its curve."""
 
     detail: float = number(
-        "Detail",
+        "Branches",
         "How many ends the skeleton has: more let shorter and lighter branches stay",
         default=0.5,
         limits=(0.0, 1.0),
     )
     simplify: float = number(
-        "Simplify",
+        "Fewer Points",
         "How far the skeleton may leave its curve to need fewer points, as a share of the radius "
         "there; 0 keeps all points",
         default=0.02,
@@ -565,7 +568,7 @@ class RigSettings(Options):
     per_limb: int = integer(
         "Bones per Limb",
         "The number of bones along each limb, where there is room for so many; "
-        "0: as many as its bends and its length need",
+        "0: as many as its bends and its length need, and at least three",
         default=0,
         limits=(0, 100),
         soft_limits=(0, 8),
@@ -590,17 +593,17 @@ class RigSettings(Options):
 
 RIG_OPTIONS = options_of(RigSettings)
 BIND = Choice(
-    label="Bind",
+    label="Weights",
     description="How the object follows the armature",
     default=Bind.AXIS,
     items={
         Bind.NONE: ("None", "It does not: bones alone"),
         Bind.AUTOMATIC: (
-            "Automatic",
-            "Blender's automatic weights; where these fail, those of Axis",
+            "By Blender",
+            "Blender's automatic weights; where these fail, those of the medial axis",
         ),
         Bind.AXIS: (
-            "Axis",
+            "By Medial Axis",
             "Each vertex follows the branch of the skeleton that its ball belongs to",
         ),
     },
@@ -636,12 +639,17 @@ class Look(Options):
         soft_maximum=5.0,
     )
     crumbs: float = number(
-        "Crumbs",
+        "Remove Crumbs",
         "Pieces of a clean form or a curve without facets that are smaller than so many spacings of the "
         "samples are not shown, unless the closed faces have them, too; of an outer axis, pieces smaller than so "
         "many of their balls; 0: all pieces",
         default=1.0,
         limits=(0.0, 4.0),
+    )
+    lone_points: bool = switch(
+        "Lone Points",
+        "Single points are shown as balls; off: only where the axis is nothing else",
+        default=False,
     )
     smallest_island: float = number(
         "Smallest Island",
@@ -850,7 +858,7 @@ class HollowSettings(Options):
 
     wall: float = number(
         "Wall",
-        "How thick the wall is that is left",
+        "How thick the wall is that is left; 0: 3 % of the diagonal of the bounding box",
         default=0.0,
         limits=(0.0, math.inf),
         soft_maximum=1000.0,

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from .translation import say
+from .plain_words import told
 
 FOLDER = Path(__file__).resolve().parent.parent / "nodes"
 _NAME = "Medial Axis"
@@ -63,7 +63,7 @@ class WM_OT_medial_axis_asset_library(bpy.types.Operator):
             found = (
                 f"Expected the folder '{FOLDER}', found none; install the add-on from its zip file"
             )
-            self.report({"ERROR"}, say(found))
+            self.report({"ERROR"}, told(found))
             return {"CANCELLED"}
         _add()
         return {"FINISHED"}

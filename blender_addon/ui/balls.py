@@ -72,7 +72,7 @@ class OBJECT_OT_medial_axis_balls(
         balls = found.balls
         return (
             f"{balls.words}, {100 * balls.covered:.1f} % of the volume, "
-            f"at most {balls.outside:.4g} outside; {found.chosen.reason}"
+            f"at most {balls.outside:.4g} outside"
         )
 
 

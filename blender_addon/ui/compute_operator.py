@@ -13,6 +13,7 @@ from ..bridge.source_state import remember_state, state_of
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
 from . import current_job
+from .plain_words import told, warned
 from .select_made import select_made
 from .selected_sources import Source, obstacle, sources
 from .translation import say
@@ -26,7 +27,7 @@ class FromSelection:
     def poll(cls, context):
         reason = obstacle(context)
         if reason:
-            cls.poll_message_set(say(reason))
+            cls.poll_message_set(told(reason))
         return not reason
 
 
@@ -101,7 +102,7 @@ class ComputeOperator(FromSelection, WatchedJob):
 
     def _tell(self, context, kind, text):
         """Report, and keep what went wrong in the panel: Blender's message fades in seconds."""
-        self.report({kind}, say(text))
+        self.report({kind}, told(text))
         if kind != "INFO":
             panel = context.scene.medial_axis
             panel.note = f"{panel.note}\n{text}".strip()
@@ -167,10 +168,10 @@ class ComputeOperator(FromSelection, WatchedJob):
             if made is None:
                 self._tell(context, "WARNING", text)
             else:  # the panel shows them with the result
-                self.report({"WARNING"}, say(text))
+                short = f"'{source.name}': {warned(warning)}"
+                self.report({"WARNING"}, say(text if bpy.app.background else short))
         if made is not None:
-            text = f"'{source.name}': {self.summary(outcome.value)}; {seconds:.2f} s"
-            self._tell(context, "INFO", text)
+            self._tell(context, "INFO", f"Done: {self.summary(outcome.value)}, {seconds:.1f} s")
         return made
 
 

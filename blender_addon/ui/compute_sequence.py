@@ -22,10 +22,11 @@ from ..core.settings import SamplingMode, SkeletonSettings
 from . import current_job
 from .compute_operator import FromSelection
 from .paths import chosen_files
+from .plain_words import told
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
-from .tab import Closed
+from .tab import InSettings
 from .translation import IN_CONTEXT, say
 
 _PRODUCTS = {"AXES": "medial axis", "SKELETONS": "skeleton"}
@@ -71,7 +72,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         default=True,
     )
     fast: BoolProperty(
-        name="Fast",
+        name="Draft",
         description="Sample faces once, where Sampling is Automatic: no look at the vertices, no second "
         "pass for thin parts; and no exact places",
     )
@@ -125,7 +126,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             pattern = _folder(self.directory) / f"{{name}}_####{suffix}"
             self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
         except (MedialAxisError, ValueError) as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return False
         self._count, self._shown = len(self._items), context.scene.frame_current
         # Values that were changed without a key are of no frame.
@@ -170,7 +171,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
 
     def _fail(self, item, error):
         self._failed += 1
-        self.report({"WARNING"}, say(f"'{item.name}': {error}"))
+        self.report({"WARNING"}, told(f"'{item.name}': {error}"))
 
     def _remember(self, item):
         self._done.setdefault(item.object, {})[item.frame] = item.output
@@ -215,10 +216,10 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             try:
                 write_sequence(name, dict(sorted(files.items())))
             except MedialAxisError as error:
-                self.report({"ERROR"}, say(error))
+                self.report({"ERROR"}, told(error))
                 return {"CANCELLED"}
         if not written:
-            self.report({"ERROR"}, say(f"Expected results of {self._count} frames, found none"))
+            self.report({"ERROR"}, told(f"Expected results of {self._count} frames, found none"))
             return {"CANCELLED"}
         text = f"{written} of {self._count} frames are there, {self._kept} were before"
         self.report({"WARNING"} if self._failed else {"INFO"}, say(text))
@@ -271,7 +272,7 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
                 collection = write_sequence(name, files)
                 self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         return {"FINISHED"}
 
@@ -282,7 +283,7 @@ def copy_sequence(scene, button):
     button.of = scene.medial_axis_sequence_of
 
 
-class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sequence(InSettings, bpy.types.Panel):
     """Frames of an animation"""
 
     bl_label = "Sequence"
@@ -328,7 +329,7 @@ def register():
     )
     bpy.types.Scene.medial_axis_sequence_of = _of()
     bpy.types.Scene.medial_axis_fast = BoolProperty(
-        name="Fast",
+        name="Draft",
         description="Sample faces once at every frame, without exact places: quicker, and coarser at thin parts "
         "and edges",
     )

@@ -7,6 +7,7 @@ from ..bridge.curve_object import write_curve
 from ..bridge.read_axis import find_axis
 from ..bridge.wires import WIRES
 from ..core.errors import MedialAxisError
+from .plain_words import told
 from .select_made import bring_into_view_layer, select_made
 from .translation import say
 
@@ -32,7 +33,7 @@ class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
         try:
             made = write_curve(find_axis(context.active_object))
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(str(error)))
+            self.report({"ERROR"}, told(str(error)))
             return {"CANCELLED"}
         bring_into_view_layer(context, made)
         select_made(context, [made])

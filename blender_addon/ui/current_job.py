@@ -9,6 +9,7 @@ from bpy.app.handlers import persistent
 from ..core.machine import native
 from ..core.machine.cache import CACHE
 from ..core.machine.job import Job, Task
+from .plain_words import doing
 from .translation import say
 
 _A_MOMENT = 0.1  # seconds
@@ -50,7 +51,7 @@ def show(context: bpy.types.Context) -> None:
     """Stage and percentage in the status bar and the panel."""
     if _job is not None and context.workspace is not None:
         share = f"{100 * _job.fraction:.0f} %"
-        what = f"{say(_product.title())}: {_job.name}, {say(_job.stage)}, {share}"
+        what = f"{say(_product.title())}: {_job.name}, {doing(_job.stage)}, {share}"
         hint = say("Esc: Cancel")
         context.workspace.status_text_set(f"{what}    {hint}")
     redraw()

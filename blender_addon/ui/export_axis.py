@@ -16,6 +16,7 @@ from ..core.files.write_balls import export_balls
 from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode, CoverShapes
 from ..core.solid.ball_cover import cover_by_balls
 from .export_file import ExportFile
+from .plain_words import told
 from .preferences import memory_limit
 from .properties import prop
 from .translation import say
@@ -79,7 +80,7 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
         try:
             size, written = self._write(context, _thing(context), self.chosen_path)
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         self.report({"INFO"}, say(f"Wrote {size} to '{written.name}'"))
         return {"FINISHED"}

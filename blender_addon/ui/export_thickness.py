@@ -11,6 +11,7 @@ from ..core.files.write_thickness import THICKNESS_FORMATS, export_thickness
 from ..core.solid.thickness import kept_measurement
 from ..core.solid.thin_parts import find_thin_parts
 from .export_file import ExportFile
+from .plain_words import told
 from .thickness_properties import shown_thickness
 from .translation import say
 
@@ -68,7 +69,7 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
             name = _measured(context).name
             written = export_thickness(found, parts, self.chosen_path, _unit(context), name)
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         self.report({"INFO"}, say(f"Wrote the thickness to '{written.name}'"))
         return {"FINISHED"}

@@ -7,12 +7,14 @@ from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
+from ..bridge.wires import LONE_POINTS
 from ..core.axis.topology import betti_in_short
 from ..core.axis.verdict import Light, in_short
 from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
 from .legend import draw_legend, light
+from .plain_words import draw_told, warned
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
 from .translation import say
@@ -20,8 +22,7 @@ from .wrapped_text import draw_wrapped
 
 
 def draw_result(context, layout, result):
-    """Its colours, its verdict, its pieces and its radii, a row each."""
-    _draw_legend(context, layout, result)
+    """Its verdict, its pieces and its radii, a row each; where its colours are shown, their legend has the radii."""
     if reason := why_outdated(context, result):
         layout.label(text=reason, icon_value=light(Light.LOOK.name))
         again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
@@ -34,7 +35,12 @@ def draw_result(context, layout, result):
     if crumbs := result.get(axis_object.CRUMBS, 0):
         text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
         draw_wrapped(context, layout, text, "INFO")
-    _draw_figures(layout, {"Radius": _range_text(context, *axis_object.radius_range(result))}, 0.3)
+    if lone := result.get(LONE_POINTS, 0):
+        text = "1 lone point hidden" if lone == 1 else f"{lone:,} lone points hidden"
+        draw_wrapped(context, layout, text, "INFO")
+    if not _draw_legend(context, layout, result):
+        radii = _range_text(context, *axis_object.radius_range(result))
+        _draw_figures(layout, {"Radius": radii}, 0.3)
 
 
 def draw_sequence(context, layout, frame):
@@ -57,7 +63,7 @@ def draw_report(context, layout, report):
         },
     )
     for warning in report.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
     _draw_legend(context, layout, report)
 
 
@@ -73,7 +79,7 @@ def draw_details(context, layout, result):
             "Vertices": f"{len(result.data.vertices):,}",
             "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
             "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
-            "Not Crisp": f"{result.get(axis_object.REFUSED, 0):,}",
+            "Not on Edges": f"{result.get(axis_object.REFUSED, 0):,}",
             "Time": f"{result.get(output_object.SECONDS, 0.0):.2f} s",
         },
     )
@@ -123,22 +129,20 @@ def draw_surface(context, layout, surface):
         },
     )
     for warning in surface.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
 
 
 def _draw_verdict(layout, result):
     """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
     name = result.get(axis_object.LIGHT)
-    row = layout.row()
     if name not in WHY:  # of an older version
         return
+    row = layout.split(factor=0.88)  # in a row, half of it would be the question mark's
     row.label(
         text=say(in_short(result[axis_object.VERDICT])), icon_value=light(name), translate=False
     )
     if manual.has(WHY[name].partition("#")[0]):
-        why = row.row()
-        why.alignment = "RIGHT"
-        why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
+        row.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
 def _draw_pieces(layout, result):
@@ -160,17 +164,16 @@ def why_outdated(context, result):
 
 
 def _draw_legend(context, layout, thing):
-    """The range of its colours, where it is coloured; pale while no one sees them, so that no row below moves."""
+    """The range of its colours while they are seen; returns whether they are."""
     found = colour_range(thing)
-    if found is None:
-        return
+    if found is None or not shows_colours(context.space_data):
+        return False
     name, start, end = found
-    layout = layout.column()
-    layout.active = shows_colours(context.space_data)
     if name == report_object.EPSILON.name:
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
     else:
         draw_legend(layout, length_text(context, start), length_text(context, end))
+    return True
 
 
 def _range_text(context, smallest, largest):

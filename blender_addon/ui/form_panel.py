@@ -6,7 +6,7 @@ from ..core.settings import Form, applies_to_form
 from .properties import settings_from, shown_result
 from .ranged_sliders import row_of_slider
 from .skeleton_operators import copy_all
-from .tab import draws_buttons
+from .tab import draw_setting, draws_buttons
 
 _SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
 
@@ -32,7 +32,7 @@ def _draw_sliders(context, layout, panel, names):
     result = shown_result(context)
     for name in names:
         row = layout.row(align=True)
-        row.prop(panel, row_of_slider(context, name, result), slider=True)
+        draw_setting(row, panel, row_of_slider(context, name, result), slider=True)
         if name == "simplify" and gap_on(result) is not None:
             row.operator("object.medial_axis_simplify_to_gap", text="", icon="LIGHT")
 

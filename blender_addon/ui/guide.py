@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The guided start: one line in the panel until it was used or dismissed, and an entry in the Help menu."""
+"""The guided start: one line in the panel until the first success, and an entry in the Help menu."""
 
 import bpy
 
@@ -24,6 +24,13 @@ def draw_guide(layout):
     row.operator("wm.medial_axis_tutorial", text="New here? Ten pictures", icon="HELP")
     row.operator("wm.medial_axis_tutorial", text="", icon="X").dismiss = True
     return True
+
+
+def end_guide(context):
+    """Whoever has opened or dismissed the line, or computed an axis, is no longer new here."""
+    addon = context.preferences.addons.get(ADDON)
+    if addon is not None and not addon.preferences.guided:
+        addon.preferences.guided = True
 
 
 def _wanted():
@@ -51,8 +58,7 @@ class WM_OT_medial_axis_tutorial(bpy.types.Operator):
         return manual.has(PAGE)
 
     def execute(self, context):
-        if addon := context.preferences.addons.get(ADDON):
-            addon.preferences.guided = True
+        end_guide(context)
         if not self.dismiss:
             bpy.ops.wm.url_open(url=manual.address(PAGE))
         return {"FINISHED"}

@@ -9,6 +9,7 @@ from ..bridge.points_object import new_points
 from ..core.errors import MedialAxisError
 from ..core.files.read import import_points
 from .paths import RELATIVE, chosen_files
+from .plain_words import told
 from .translation import say
 
 
@@ -56,7 +57,7 @@ class ImportPoints(ImportHelper):
             name = bpy.path.display_name_from_filepath(path)
             thing, warnings = new_points(found, name, turn, self.global_scale)
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return None
         for warning in warnings:
             self.report({"WARNING"}, say(f"'{thing.name}': {warning}"))

@@ -7,6 +7,7 @@ from ..bridge.axis_object import TURNED, is_result
 from ..bridge.inward_faces import select_inward, turn_inward
 from ..bridge.output_object import is_gone, source_of
 from ..core.errors import MedialAxisError
+from .plain_words import told
 from .translation import say
 
 
@@ -52,7 +53,7 @@ class OBJECT_OT_medial_axis_inward_faces(bpy.types.Operator):
                 count = select_inward(thing)
                 self.report({"INFO"}, say(f"{count:,} faces look inward"))
         except MedialAxisError as error:
-            self.report({"ERROR"}, f"'{thing.name}': {say(error)}")
+            self.report({"ERROR"}, told(f"'{thing.name}': {error}"))
             return {"CANCELLED"}
         return {"FINISHED"}
 

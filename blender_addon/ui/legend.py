@@ -10,7 +10,7 @@ from ..core.axis.colours import colours
 from ..core.axis.verdict import Light
 from ..core.solid.thickness_colours import STEPS, STEPS_BELOW
 
-_STEPS = 12
+_STEPS = 6
 _SIZE = 32
 _LEVELS = 16  # heights of bars
 _LIGHTS = {
@@ -22,13 +22,16 @@ _icons = None
 
 
 def draw_legend(layout, start, end):
-    """The scale of colours over two texts, what is blue and what is yellow."""
-    column = layout.column(align=True)
-    scale = column.row(align=True)
-    scale.scale_y = 0.7
+    """The scale of colours between two texts, what is blue and what is yellow."""
+    ends = layout.split(factor=0.28)
+    ends.label(text=start, translate=False)
+    rest = ends.split(factor=0.6)
+    scale = rest.row(align=True)
     for step in range(_STEPS):
         scale.label(text="", icon_value=_icon(f"step {step}", step))
-    _draw_ends(column, (start, "", end))
+    end_of = rest.row()
+    end_of.alignment = "RIGHT"
+    end_of.label(text=end, translate=False)
 
 
 def draw_thickness_legend(layout, scale, shares, texts):

@@ -5,7 +5,6 @@ import bpy
 
 from ..core.settings import BALL_OPTIONS, THICKNESS_OPTIONS
 from .compute_sequence import copy_sequence
-from .follow_mesh import FOLLOW
 from .node_groups import VIEW3D_MT_medial_axis_nodes
 from .properties import copy_settings
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
@@ -19,7 +18,7 @@ _VERBS = (
         "object.medial_axis_select_part": "RESTRICT_SELECT_OFF",
         "object.medial_axis_separate_parts": "OUTLINER_COLLECTION",
     },
-    {**SKELETON_OPERATORS, **FOLLOW, "object.medial_axis_to_curve": "OUTLINER_OB_CURVE"},
+    {**SKELETON_OPERATORS, "object.medial_axis_to_curve": "OUTLINER_OB_CURVE"},
     {
         "object.medial_axis_thickness": "DRIVER_DISTANCE",
         "object.medial_axis_thicken": "MOD_SOLIDIFY",

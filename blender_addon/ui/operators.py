@@ -19,6 +19,7 @@ from ..bridge.report_object import (
 )
 from ..bridge.shown_axis import compute_shown
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
+from ..core.axis.topology import betti_in_short
 from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
@@ -33,6 +34,7 @@ from ..core.settings import (
 from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
+from .guide import end_guide
 from .preferences import memory_limit
 from .properties import (
     SamplingProperties,
@@ -95,18 +97,15 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         return write_result_of_part(thing, part, found.computation, frame, look, found.shown)
 
     def settle(self, made):
+        if made:
+            end_guide(bpy.context)
         if self.each_part:
             remove_other_parts(made)
 
     def summary(self, found):
-        computation = found.computation
-        axis, chosen = computation.axis, computation.chosen
-        known = (computation.topology, computation.sides, chosen.reason, computation.density)
-        return (
-            f"{computation.points:,} points, {axis.facets:,} facets, edges alone {len(axis.edges):,}, "
-            f"duplicates merged {computation.duplicates:,}, unbounded facets {axis.unbounded:,}, "
-            f"facets without area {axis.zero_area:,}; {'; '.join(str(x) for x in known if str(x))}"
-        )
+        level = found.shown.axis.level
+        betti = (found.shown.pieces, 0, 0) if level is None else level.betti
+        return ", ".join(betti_in_short(betti))
 
 
 class OBJECT_OT_medial_axis_sampling_report(
@@ -167,7 +166,7 @@ class OBJECT_OT_medial_axis_sampling_report(
         return write_report(thing, found, frame, self.colours)
 
     def summary(self, found):
-        return f"{found.chosen.reason}; {found.density}"
+        return f"{len(found.vertices):,} samples"
 
 
 class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
@@ -194,11 +193,7 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
         return write_surface(thing, found, frame)
 
     def summary(self, found):
-        return (
-            f"{found.points:,} points, {len(found.triangles):,} triangles, duplicates merged "
-            f"{found.duplicates:,}, points off the surface {found.off_surface:,}, non-manifold "
-            f"edges {found.nonmanifold_edges:,}, non-manifold points {found.nonmanifold_vertices:,}"
-        )
+        return f"{len(found.triangles):,} triangles"
 
 
 class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):

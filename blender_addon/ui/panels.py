@@ -18,15 +18,14 @@ from .figures import (
 )
 from .form_panel import draw_form
 from .guide import draw_guide
+from .plain_words import doing, draw_told
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, shown_report, shown_result, shown_surface
 from .ranged_sliders import row_of_slider
 from .selected_sources import has_faces, obstacle, sources
-from .show import draw_colours, draw_source, shows_colours
+from .show import draw_colours, shows_colours
 from .shown import shown_frame, shown_thing
-from .tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
-from .translation import say
-from .wrapped_text import draw_wrapped
+from .tab import DETAILS, MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 
 _drawn = {}  # a sidebar -> what its panels were drawn for
 _BINDS = 0.5  # a condition that keeps a larger share of the facets alone is why the other one does little
@@ -45,7 +44,7 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
         layout = self.layout
         _settle_when_changed(context)
         if problem := native.problem():
-            draw_wrapped(context, layout.box(), problem, "ERROR")
+            draw_told(context, layout.box(), problem, "ERROR")
         _draw_compute(context, layout)
         _draw_status(context, layout)
         _draw_settings(context, layout)
@@ -68,9 +67,7 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         result, report, frame = shown_result(context), shown_report(context), shown_frame(context)
-        row = layout.row(align=True)
-        draw_colours(context, row)
-        draw_source(row, shown_thing(context))
+        draw_colours(context, layout)
         if frame is not None:
             draw_sequence(context, layout, frame)
         if result is not None:
@@ -85,7 +82,7 @@ class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
     """All other figures, and every sentence"""
 
     bl_label = "Details"
-    bl_idname = "VIEW3D_PT_medial_axis_details"
+    bl_idname = DETAILS
 
     @classmethod
     def poll(cls, context):
@@ -133,10 +130,16 @@ def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(context, column, settings)
     result = shown_result(context)
+    split = column.split(factor=0.4)  # as Blender divides the other rows
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text="Theta, Rho")
+    both = split.row(align=True)
+    both.use_property_split = False
     for name, does_little in _thresholds(result).items():
-        row = column.row()
-        row.active = not does_little
-        row.prop(settings, row_of_slider(context, name, result), slider=True)
+        cell = both.row(align=True)
+        cell.active = not does_little
+        cell.prop(settings, row_of_slider(context, name, result), text="", slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
@@ -177,7 +180,7 @@ def _draw_status(context, layout):
     told = [reason] if reason and reason != native.problem() else []
     told += context.scene.medial_axis.note.splitlines()
     for sentence in told:
-        draw_wrapped(context, layout, sentence, "INFO")
+        draw_told(context, layout, sentence, "INFO")
     if not told and (job is not None or not draw_guide(layout)):
         names = job.name if job is not None else ", ".join(thing.name for thing in sources(context))
         layout.label(text=names, icon="OBJECT_DATA", translate=False)
@@ -187,12 +190,12 @@ def _draw_progress(context, layout, job):
     whole = layout.row(align=True)
     whole.scale_y = 1.5  # as the button that is here otherwise, so that nothing below moves
     if bpy.app.version >= (5, 0):  # after such a bar, 4.3 draws the next label as a full one
-        whole.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
+        whole.progress(factor=job.fraction, text=f"{doing(job.stage)}, {100 * job.fraction:.0f} %")
     else:
         row = whole.row(align=True)
         row.enabled = False
         bar = context.window_manager.medial_axis_progress
-        row.prop(bar, "percentage", text=say(job.stage), slider=True)
+        row.prop(bar, "percentage", text=doing(job.stage), slider=True)
     whole.operator("object.medial_axis_cancel", text="", icon="CANCEL")
 
 

@@ -9,8 +9,9 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
+from .plain_words import told
 from .properties import shown_result
-from .tab import InResult, settings_column
+from .tab import InDetails, settings_column
 from .translation import say
 from .view_place import edit_faces
 
@@ -87,13 +88,13 @@ class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
         try:
             collection = separate_parts(_axis(context))
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         self.report({"INFO"}, say(f"{len(collection.objects):,} parts in '{collection.name}'"))
         return {"FINISHED"}
 
 
-class VIEW3D_PT_medial_axis_parts(InResult, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
     """Sheets and seams: how many there are, their colours, and what can be done with them"""
 
     bl_label = "Parts"

@@ -14,6 +14,7 @@ from ..core.settings import CACHE_SIZE, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .asset_library import draw_library
 from .manual import draw_manual
+from .plain_words import draw_told
 from .properties import prop
 from .translation import say
 from .wrapped_text import draw_wrapped
@@ -30,18 +31,6 @@ def memory_limit() -> MemoryLimit:
     _give_room(addon.preferences)
     limit = MemoryLimit(addon.preferences.memory_limit, AboveLimit[addon.preferences.above_limit])
     return limit.used(output=OBJECT)
-
-
-def wants_hiding() -> bool:
-    """Whether a medial axis is hidden and shown with its source."""
-    addon = bpy.context.preferences.addons.get(ADDON)
-    return addon is not None and addon.preferences.hide_with_source
-
-
-def _switch_hiding(preferences, _context):
-    from . import hide_with_source  # which asks this module for the preference
-
-    hide_with_source.switch(preferences.hide_with_source)
 
 
 def threads() -> int:
@@ -61,21 +50,16 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     cache_size: prop(CACHE_SIZE, _give_room)
     memory_limit: prop(LIMITS["memory_limit"])
     above_limit: prop(LIMITS["above_limit"])
-    hide_with_source: BoolProperty(
-        name="Hide Axis with Source",
-        description="Hide and show a medial axis together with the object that it was computed from."
-        " Blender hides no children, so the add-on looks at its results after every change",
-        update=_switch_hiding,
-    )
     show_installed: BoolProperty(
         name="Installation", description="What is installed, what memory holds, and a test of it"
     )
-    guided: BoolProperty(options={"HIDDEN"})  # the tutorial was opened, or its line dismissed
+    guided: BoolProperty(
+        options={"HIDDEN"}
+    )  # the tutorial was opened, its line dismissed, or an axis computed
 
     def draw(self, context):
         _draw_start(context, self.layout)
         _draw_memory(self.layout.box().column(), self)
-        self.layout.box().column().prop(self, "hide_with_source")
         draw_library(self.layout.box().column())
         box = self.layout.box().column()
         arrow = "DISCLOSURE_TRI_DOWN" if self.show_installed else "DISCLOSURE_TRI_RIGHT"
@@ -90,7 +74,7 @@ def _draw_start(context, layout):
     """Draws the place of the panel, a problem of the compiled module, and links to the manual."""
     draw_wrapped(context, layout, "3D Viewport > Sidebar (N) > Medial Axis", "INFO")
     if problem := native.problem():
-        draw_wrapped(context, layout, problem, "ERROR")
+        draw_told(context, layout, problem, "ERROR")
     draw_manual(layout)
 
 

@@ -43,6 +43,7 @@ from ..core.settings import (
 )
 from . import apply_later, current_job
 from .ranged_sliders import with_shares
+from .tab import draw_setting
 from .translation import IN_CONTEXT
 
 # These words of a FloatProperty follow from the unit of its option.
@@ -89,20 +90,20 @@ class SamplingProperties:
     """The options of the sampling, which all operators have that compute from a surface."""
 
 
-def draw_sampling(layout, properties, of_faces=()):
-    """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey.
+def draw_sampling(layout, properties, of_faces=(), names=SAMPLING_OPTIONS):
+    """Draw options of the sampling; those that do not matter for the chosen Sampling are grey.
 
     `of_faces` are the options that matter for Vertices, too.
     """
     chosen = SamplingMode[properties.sampling]
-    for name in SAMPLING_OPTIONS:
+    for name in names:
         if name == "wrap_opening" and properties.sides != SidesFrom.WRAP.name:
             continue
         if name == "prepare" and not (_is_of_points() or _is_of_noisy_faces(properties)):
             continue
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing, of_faces)
-        row.prop(properties, name)
+        draw_setting(row.column(), properties, name)
 
 
 def _is_of_points():

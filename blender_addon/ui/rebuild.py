@@ -17,6 +17,7 @@ from ..bridge.rebuilt_object import (
 )
 from ..bridge.step_back import are_back, step_back
 from ..core.errors import MedialAxisError
+from .plain_words import told
 from .select_made import bring_into_view_layer
 from .tab import Closed, settings_column
 from .translation import say
@@ -72,7 +73,7 @@ class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
                 made.select_set(True)
                 context.view_layer.objects.active = made
         except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
+            self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         if found is not None:
             self.report({"INFO"}, say(_sentence(made.name, found)))

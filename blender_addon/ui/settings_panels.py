@@ -4,11 +4,11 @@
 import bpy
 
 from ..bridge.wires import width_of, wires_of
-from ..core.settings import Form, SidesFrom, applies_to_form
+from ..core.settings import AS_IN_PAPER, SAMPLING_OPTIONS, Form, applies_to_form
 from .form_panel import draw_more_of_form
 from .properties import copy_settings, draw_sampling, settings_from
 from .shown import shown_thing
-from .tab import SETTINGS, Closed, InSettings, draws_buttons, settings_column
+from .tab import SETTINGS, Closed, InSettings, draw_setting, draws_buttons, settings_column
 
 
 class VIEW3D_PT_medial_axis_settings(Closed, bpy.types.Panel):
@@ -24,7 +24,7 @@ class VIEW3D_PT_medial_axis_settings(Closed, bpy.types.Panel):
 class VIEW3D_PT_medial_axis_form(InSettings, bpy.types.Panel):
     """The other sliders of the form"""
 
-    bl_label = "Form"
+    bl_label = "Clean Up"
     bl_idname = "VIEW3D_PT_medial_axis_form"
 
     def draw(self, context):
@@ -40,26 +40,27 @@ class VIEW3D_PT_medial_axis_sampling(InSettings, bpy.types.Panel):
     def draw(self, context):
         settings, column = context.scene.medial_axis, settings_column(self.layout)
         column.prop(settings, "sampling")
-        draw_sampling(column, settings, settings_from(settings).options_of_faces)
+        names = [name for name in SAMPLING_OPTIONS if name not in AS_IN_PAPER]
+        draw_sampling(column, settings, settings_from(settings).options_of_faces, names)
         if draws_buttons(self.layout):
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)
 
 
 class VIEW3D_PT_medial_axis_method(InSettings, bpy.types.Panel):
-    """Choices that the published method leaves open"""
+    """Choices that only readers of the paper need"""
 
     bl_label = "Method"
     bl_idname = "VIEW3D_PT_medial_axis_method"
 
     def draw(self, context):
+        self.layout.label(text="As in the paper")
         settings, column = context.scene.medial_axis, settings_column(self.layout)
         for name in ("rule", "criteria", "limit_set", "mesh", "sides"):
             row = column.row()
             row.active = name != "mesh" or applies_to_form(name, Form[settings.form])
-            row.prop(settings, name)
-        if settings.sides == SidesFrom.WRAP.name:
-            column.prop(settings, "wrap_opening")
+            draw_setting(row.column(), settings, name)
+        draw_sampling(column, settings, settings_from(settings).options_of_faces, AS_IN_PAPER)
         column.prop(settings, "each_part")
 
 
@@ -79,9 +80,10 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
         column.prop(thing, "show_in_front", text="In Front")
         column.prop(settings, "parent")
         if Form[settings.form] is Form.PUBLISHED:
-            column.prop(settings, "smallest_island", slider=True)
+            draw_setting(column, settings, "smallest_island", slider=True)
         else:
-            column.prop(settings, "crumbs", slider=True)
+            draw_setting(column, settings, "crumbs", slider=True)
+        column.prop(settings, "lone_points")
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):
             column.prop(*width, text="Wire Width")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Buttons that make a result easier to see: colours in Solid view, and the source as wire."""
+"""The button that makes a result easier to see: colours in Solid view."""
 
 import bpy
 
-from ..bridge.output_object import is_gone, source_of
 from . import current_job
 
 _before = {}  # a viewport -> what it showed before Show Colours
@@ -26,19 +25,6 @@ def draw_colours(context, layout):
     """The button that shows colours, pressed while they are shown."""
     shown = shows_colours(context.space_data)
     layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
-
-
-def draw_source(layout, thing):
-    """A button without words that draws the source of an object as wires, if it has one."""
-    source = source_of(thing)
-    if source is None:
-        return
-    layout.operator(
-        "object.medial_axis_source_as_wire",
-        text="",
-        icon="SHADING_WIRE",
-        depress=source.display_type == "WIRE",
-    ).name = thing.name
 
 
 class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
@@ -65,24 +51,7 @@ class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_medial_axis_source_as_wire(bpy.types.Operator):
-    bl_idname = "object.medial_axis_source_as_wire"
-    bl_label = "Source as Wire"
-    bl_description = "Draw the object of which the result was made as wires, or as before"
-    bl_options = {"INTERNAL", "UNDO"}
-
-    name: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
-
-    def execute(self, _context):
-        thing = bpy.data.objects.get(self.name)
-        source = thing and source_of(thing)
-        if is_gone(source):
-            return {"CANCELLED"}
-        source.display_type = "TEXTURED" if source.display_type == "WIRE" else "WIRE"
-        return {"FINISHED"}
-
-
-CLASSES = (VIEW3D_OT_medial_axis_show_colours, OBJECT_OT_medial_axis_source_as_wire)
+CLASSES = (VIEW3D_OT_medial_axis_show_colours,)
 
 
 def register():

@@ -8,7 +8,6 @@ import bpy
 from ..bridge.armature_object import check_no_other, find_armature, in_rest, write_armature
 from ..bridge.axis_object import shown_curve
 from ..bridge.bind_armature import bind_by_axis, bind_by_heat, check_bindable, groups_of_others
-from ..bridge.follow_mesh import remember_rest
 from ..bridge.read_object import read_object
 from ..bridge.selected_ends import selected_ends
 from ..bridge.skeleton_object import (
@@ -95,8 +94,9 @@ class WithCurve:
         return self._shown.pop(id(shape), None)
 
 
+@with_options(RIG_OPTIONS)
 class ArmatureProperties:
-    """The option of an armature."""
+    """The options of the bones of an armature."""
 
     bind: prop(BIND)
 
@@ -104,7 +104,9 @@ class ArmatureProperties:
 def copy_all(context, button) -> None:
     """Set the properties of an operator button to those of the panels."""
     copy_settings(context.scene.medial_axis, button)
-    copy_settings(context.scene.medial_axis_skeleton, button, (*SKELETON_OPTIONS, "bind"))
+    copy_settings(
+        context.scene.medial_axis_skeleton, button, (*SKELETON_OPTIONS, "per_limb", "bind")
+    )
 
 
 class OBJECT_OT_medial_axis_skeleton(
@@ -164,15 +166,7 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def summary(self, found):
         skeleton = found.skeleton
-        return (
-            f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops; "
-            f"{found.chosen.reason}"
-        )
-
-
-@with_options(RIG_OPTIONS)
-class RigProperties:
-    """The options of the bones of an armature."""
+        return f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops"
 
 
 class OBJECT_OT_medial_axis_armature(
@@ -182,7 +176,6 @@ class OBJECT_OT_medial_axis_armature(
     SamplingProperties,
     SkeletonProperties,
     ArmatureProperties,
-    RigProperties,
     bpy.types.Operator,
 ):
     bl_idname = "object.medial_axis_armature"
@@ -235,7 +228,6 @@ class OBJECT_OT_medial_axis_armature(
         made = write_armature(thing, rig, frame, taken, LimbControl(self.ik), into)
         with same_state(thing):
             self._bind(thing, made, rig)
-        remember_rest(made, thing)
         return made
 
     def _bind(self, thing, made, rig):
@@ -248,7 +240,7 @@ class OBJECT_OT_medial_axis_armature(
 
     def summary(self, rig):
         skeleton = rig.made_of.skeleton
-        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends; {rig.made_of.chosen.reason}"
+        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends"
 
 
 class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.types.PropertyGroup):

@@ -6,12 +6,10 @@ import bpy
 from ..bridge import output_object, skeleton_object
 from ..bridge.armature_object import BONES, armature_of, is_armature
 from ..bridge.skeleton_object import is_skeleton, skeleton_of
-from ..core.settings import SKELETON_OPTIONS
-from .follow_mesh import FOLLOW
+from .plain_words import draw_told, warned
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
-from .tab import Closed, draws_buttons, settings_column
+from .tab import Closed, draw_setting, draws_buttons, settings_column
 from .translation import say
-from .wrapped_text import draw_wrapped
 
 
 class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
@@ -19,18 +17,17 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
 
     def draw(self, context):
         column = settings_column(self.layout)
-        for name in (*SKELETON_OPTIONS, "bind"):
-            if name == "loops":  # it is in the panels of the operators
-                continue
-            column.prop(context.scene.medial_axis_skeleton, name)
+        for name in (
+            "detail",
+            "per_limb",
+            "mirror",
+            "bind",
+        ):  # the others are in the panels of the operators
+            draw_setting(column, context.scene.medial_axis_skeleton, name)
         converts = bpy.ops.object.medial_axis_to_curve.poll()
-        follows = bpy.ops.object.medial_axis_follow.poll()
-        if draws_buttons(self.layout, len(SKELETON_OPERATORS) + follows + converts):
+        if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
             for operator, icon in SKELETON_OPERATORS.items():
                 copy_all(context, self.layout.operator(operator, icon=icon))
-            if follows:
-                for operator, icon in FOLLOW.items():
-                    self.layout.operator(operator, icon=icon)
             if converts:
                 self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
         for thing in _shown(context):
@@ -60,7 +57,7 @@ def _draw_figures(context, layout, thing):
         row.label(text=say(label), translate=False)
         row.label(text=f"{number:,}", translate=False)
     for warning in thing.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
 
 
 CLASSES = (VIEW3D_PT_medial_axis_skeleton,)

@@ -5,7 +5,9 @@ from . import current_job
 
 MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
 RESULT = "VIEW3D_PT_medial_axis_result"
+DETAILS = "VIEW3D_PT_medial_axis_details"
 SETTINGS = "VIEW3D_PT_medial_axis_settings"
+_FITS = 10  # letters of a label beside its value, in a sidebar as wide as it is at first
 
 
 class Tab:
@@ -34,6 +36,12 @@ class InResult(Closed):
     bl_parent_id = RESULT
 
 
+class InDetails(Closed):
+    """A panel inside that of the details."""
+
+    bl_parent_id = DETAILS
+
+
 class InSettings(Closed):
     """A panel inside that of the settings."""
 
@@ -50,6 +58,20 @@ def draws_buttons(layout, count=1):
     for _ in range(count):
         layout.label(text="")
     return False
+
+
+def draw_setting(column, owner, name, **words):
+    """A setting in such a column: a label that does not fit beside its value stands in it, or above it."""
+    prop = owner.bl_rna.properties[name]
+    if len(prop.name) <= _FITS or prop.type == "BOOLEAN":
+        column.prop(owner, name, **words)
+    elif prop.type == "ENUM":
+        column.label(text=prop.name, text_ctxt=prop.translation_context)
+        column.prop(owner, name, text="", **words)
+    else:
+        row = column.row()
+        row.use_property_split = False
+        row.prop(owner, name, **words)
 
 
 def settings_column(layout):

@@ -75,7 +75,7 @@ class OBJECT_OT_medial_axis_thickness(
         text = f"Minimum {found.minimum:.4g}"
         if self.limit > 0.0:
             text += f"; {100 * parts.share:.1f} % of the area thinner than {self.limit:.4g}"
-        return f"{text}; {found.normals}; {found.chosen.reason}"
+        return text
 
 
 class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):

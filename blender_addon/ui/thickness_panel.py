@@ -12,6 +12,7 @@ from ..core.samples.density import share_text
 from ..core.settings import THICKNESS_OPTIONS, Noise
 from .figures import length_text
 from .legend import draw_thickness_legend, light
+from .plain_words import draw_told, warned
 from .properties import copy_settings
 from .show import draw_colours, shows_colours
 from .tab import Closed, draws_buttons, settings_column
@@ -37,7 +38,8 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
             copy_settings(context.scene.medial_axis, button)
             copy_settings(settings, button, THICKNESS_OPTIONS)
         if settings.note:
-            draw_wrapped(context, layout, settings.note, "INFO")
+            draw_told(context, layout, settings.note, "INFO")
+        _draw_made(context, layout)
         carrier = shown_thickness(context)
         if carrier is not None:
             _draw_found(context, layout, carrier)
@@ -53,6 +55,18 @@ def _draw_options(layout, settings):
             row.menu("VIEW3D_MT_medial_axis_thickness_limits", text="", icon="DOWNARROW_HLT")
 
 
+def _draw_made(context, layout):
+    """The buttons of what is made of walls, measured or not."""
+    if not draws_buttons(layout):
+        return
+    row = layout.row(align=True)
+    button = row.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
+    copy_settings(context.scene.medial_axis, button)
+    row.operator(
+        "object.medial_axis_hollow", icon="MESH_UVSPHERE"
+    ).wall = context.scene.medial_axis_thickness.limit
+
+
 def _draw_found(context, layout, carrier):
     if has_changed(carrier, context.view_layer.depsgraph):
         draw_wrapped(context, layout, "The source has changed", icon_value=light(Light.LOOK.name))
@@ -63,22 +77,17 @@ def _draw_found(context, layout, carrier):
     if carrier[of.LIMIT] > 0.0:
         share = share_text(carrier[of.SHARE])
         area = _area(context, carrier[of.AREA])
-        column.label(text=say(f"Thinner: {area} ({share})"), icon="MESH_PLANE", translate=False)
+        column.label(text=say(f"Thin: {area} ({share})"), icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
         if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
             _draw_thicken(context, layout)
-    if not carrier[of.GAP] and draws_buttons(layout):
-        button = layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
-        copy_settings(context.scene.medial_axis, button)
-        button = layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
-        button.wall = context.scene.medial_axis_thickness.limit
     draw_colours(context, layout)
     legend = layout.column()  # always there, so that no row below moves
     legend.active = shows_colours(context.space_data)
     _draw_legend(context, legend, carrier)
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+        draw_told(context, layout, warning, "ERROR", warned)
 
 
 def _draw_thicken(context, layout):
@@ -98,7 +107,7 @@ def _draw_thicken(context, layout):
 def _draw_patches(context, column, carrier):
     count, current = patches_of(carrier), carrier[of.CURRENT]
     if not count:
-        column.label(text="Nothing is thinner than the limit", icon="CHECKMARK")
+        column.label(text="Nothing is too thin", icon="CHECKMARK")
         return
     total = carrier[of.PATCHES]
     text = "1 patch" if total == 1 else f"{total:,} patches"

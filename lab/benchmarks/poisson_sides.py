@@ -7,11 +7,11 @@
 Ten exact shapes, as scans.py makes them, but with 4,000 samples, are prepared. A hole leaves out the points within so
 many diagonals of the highest one. The same Clean axis is then extracted with the inside from
 
-Normals      the exact normals, as Inside From: Normals does
+Normals      the exact normals, as Inside Decided By: Normals does
 winding      the exact normals, by the winding number of points with the area of their neighbours, without lids
 Poisson      the exact normals, by the winding number of Open3D's Poisson surface of depth 7
-bare         points alone, as Inside From: Automatic does
-guessed      normals that Open3D guesses and turns along its spanning tree, as Inside From: Normals does
+bare         points alone, as Inside Decided By: Automatic does
+guessed      normals that Open3D guesses and turns along its spanning tree, as Inside Decided By: Normals does
 P. guessed   the same normals, by the Poisson surface
 
 and with --faces also from the Poisson surface instead of the points, with exact normals before Prepare.

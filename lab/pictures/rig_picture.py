@@ -21,9 +21,9 @@ import blender_demo
 PIXELS = (420, 520)
 # Bones, turned about an axis of the world by an angle in degrees: a raised thigh, a bent knee, a lowered arm.
 POSE = {
-    "limb.02.01.L": ((1, 0, 0), -70),
-    "limb.02.02.L": ((1, 0, 0), 60),
-    "limb.01.01.L": ((0, 1, 0), 45),
+    "leg.01.L": ((1, 0, 0), -70),
+    "leg.02.L": ((1, 0, 0), 60),
+    "arm.01.L": ((0, 1, 0), 45),
 }
 
 

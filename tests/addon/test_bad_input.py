@@ -82,12 +82,11 @@ def test_transform_that_is_not_finite():
     refuse("'Ellipsoid': Expected a finite transform, found NaN")
 
 
-def test_duplicates_are_merged_and_counted(capfd):
+def test_duplicates_are_merged_and_counted():
     points = np.random.default_rng(4).normal(size=(60, 3)).astype(np.float32)
     source = link("Twice", np.concatenate([points, points[:25]]))
     compute(side="BOTH")
     assert result_of(source)["ma_duplicates"] == 25 and result_of(source)["ma_points"] == 85
-    assert any("duplicates merged 25" in text for _, text in reports(capfd))
     sound(result_of(source))
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compute Medial Axis on real objects: what is made, what it is called, what stays as it was."""
 
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -207,11 +209,8 @@ def test_several_selected_objects_give_one_result_each(capfd):
     assert {thing.name for thing in medial_objects()} == {"First Medial Axis", "Second Medial Axis"}
     assert set(bpy.context.selected_objects) == {result_of(first), result_of(second)}
     assert bpy.context.object == result_of(first)
-    infos = [text for kind, text in reports(capfd) if kind == "Info" and "points" in text]
-    assert len(infos) == 2
-    assert "162 points" in infos[0] and "facets" in infos[0] and "duplicates merged 0" in infos[0]
-    assert "unbounded facets 0, facets without area " in infos[0] and infos[0].endswith(" s")
-    assert "; Inside from Surface: the faces are closed; " in infos[0]
+    infos = [text for kind, text in reports(capfd) if kind == "Info"]
+    assert len(infos) == 2 and re.fullmatch(r"Done: \d+ pieces?, \d+\.\d s", infos[0]), infos
 
 
 def test_one_bad_object_does_not_take_the_others_down():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scene import (
     addon,
+    attribute,
     compute,
     contents,
     ellipsoid,
@@ -193,3 +194,16 @@ def test_the_axis_may_be_where_the_view_layer_does_not_show_it():
     made = rebuilt(source)
     assert made.visible_get() and made.select_get() and made["ma_rebuilt_mean"] < 0.01
     assert not axis.visible_get()
+
+
+def test_colours_change_without_teeth():
+    """Next to each other vertices have nearly the same radius; that of the nearest ball alone jumps from row to row."""
+    bpy.ops.mesh.primitive_cone_add(vertices=64, radius1=1.0, depth=3.0)
+    compute(form="CLEAN", sampling="SURFACE", samples=4_000)
+    bpy.ops.object.medial_axis_rebuild()
+    made = next(thing for thing in bpy.data.objects if thing.name.endswith("Rebuilt"))
+    mesh = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    radius = attribute(mesh, "ma_radius")
+    edges = np.array([edge.vertices for edge in mesh.edges])
+    steps = np.abs(np.diff(radius[edges], axis=1))
+    assert np.percentile(steps, 99) < 0.03 * radius.max()

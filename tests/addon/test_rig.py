@@ -71,9 +71,9 @@ def test_names_say_what_the_shape_tells():
     thing = make(figure(), per_limb=2)
     names = set(thing.data.bones.keys())
     assert {"pelvis", "head.01"} <= names and any(name.startswith("spine") for name in names)
-    for limb in ("limb.01", "limb.02"):
+    for limb in ("arm", "leg"):
         assert {f"{limb}.0{step}.{side}" for step in (1, 2) for side in "LR"} <= names
-    arm, leg = thing.data.bones["limb.01.02.L"], thing.data.bones["limb.02.02.L"]
+    arm, leg = thing.data.bones["arm.02.L"], thing.data.bones["leg.02.L"]
     assert arm.tail_local.x > 0.5 and leg.tail_local.z < 0.2
     assert thing.data.bones["pelvis"].head_local.z == pytest.approx(1.0, abs=0.12)
     assert leg.parent.head_local.z == pytest.approx(0.85, abs=0.12)  # the thigh turns about the hip
@@ -105,7 +105,7 @@ def test_symmetrize_gives_the_same_bones_again():
 def test_knees_and_elbows_bend_in_their_plane():
     """The knee looks to the front and the elbow to the back, so their first axis is across; more is a sharper bend."""
     thing = make(figure(), per_limb=2)
-    for limb, axis in (("limb.02", (0.95, 0.3, 0)), ("limb.01", (0.7, 0, 0.7))):
+    for limb, axis in (("leg", (0.95, 0.3, 0)), ("arm", (0.7, 0, 0.7))):
         upper, lower = (thing.data.bones[f"{limb}.0{step}.L"] for step in (1, 2))
         assert abs(np.array(lower.matrix_local.to_3x3().col[0]) @ axis) > 0.85
         pose = thing.pose.bones[lower.name]
@@ -119,8 +119,8 @@ def test_knees_and_elbows_bend_in_their_plane():
 def test_limbs_reach_for_their_targets():
     source = figure()
     thing = make(source, per_limb=2, ik="TARGET")
-    target, foot = thing.pose.bones["IK.limb.02.L"], thing.pose.bones["limb.02.02.L"]
-    assert not target.bone.use_deform and "IK.limb.02.L" not in source.vertex_groups
+    target, foot = thing.pose.bones["IK.leg.L"], thing.pose.bones["leg.02.L"]
+    assert not target.bone.use_deform and "IK.leg.L" not in source.vertex_groups
     rest = shown(source)
     np.testing.assert_allclose(rest, positions(source.data), atol=2e-3)  # nothing moves yet
     target.location = target.bone.matrix_local.to_3x3().inverted() @ (
@@ -128,8 +128,8 @@ def test_limbs_reach_for_their_targets():
     )
     bpy.context.view_layer.update()
     assert (foot.tail - target.head).length < 0.02
-    knee = thing.pose.bones["limb.02.01.L"].tail
-    assert knee.y < thing.data.bones["limb.02.01.L"].tail_local.y - 0.03  # to the front
+    knee = thing.pose.bones["leg.01.L"].tail
+    assert knee.y < thing.data.bones["leg.01.L"].tail_local.y - 0.03  # to the front
     moved = np.linalg.norm(shown(source) - rest, axis=1)
     assert moved.max() > 0.2 and moved[rest[:, 0] < -0.15].max() < 0.01
     make(source, per_limb=2)
@@ -156,26 +156,26 @@ def test_limbs_lie_along_lines_through_their_controls():
     """At rest nothing moves; a moved end and a moved middle draw the limb along, and a body takes its limbs along."""
     source = figure()
     thing = make(source, per_limb=4, ik="SPLINE")
-    assert {f"IK.limb.02.0{k}.L" for k in range(1, 6)} <= set(thing.data.bones.keys())
+    assert {f"IK.leg.0{k}.L" for k in range(1, 6)} <= set(thing.data.bones.keys())
     assert not any("IK" in group.name for group in source.vertex_groups)
     rest = shown(source)
     np.testing.assert_allclose(rest, positions(source.data), atol=3e-4)
     end, chain = (
-        thing.pose.bones["IK.limb.01.05.L"],
-        [thing.pose.bones[f"limb.01.0{k}.L"] for k in range(1, 5)],
+        thing.pose.bones["IK.arm.05.L"],
+        [thing.pose.bones[f"arm.0{k}.L"] for k in range(1, 5)],
     )
     start = chain[0].head.copy()
     end.location = (0.15, 0.0, 0.1)
-    thing.pose.bones["IK.limb.01.03.L"].location = (0.0, 0.0, 0.2)
+    thing.pose.bones["IK.arm.03.L"].location = (0.0, 0.0, 0.2)
     bpy.context.view_layer.update()
     assert (chain[-1].tail - end.head).length < 0.01 and (chain[0].head - start).length < 1e-4
     assert (end.head - end.bone.head_local).length > 0.15
-    middle = thing.pose.bones["IK.limb.01.03.L"]
+    middle = thing.pose.bones["IK.arm.03.L"]
     assert (chain[1].tail - middle.head).length < 0.1
     assert (middle.head - middle.bone.head_local).length > 0.15
     moved = np.linalg.norm(shown(source) - rest, axis=1)
     assert moved.max() > 0.12 and moved[rest[:, 0] < -0.15].max() < 1e-3
-    for name in ("IK.limb.01.05.L", "IK.limb.01.03.L"):
+    for name in ("IK.arm.05.L", "IK.arm.03.L"):
         thing.pose.bones[name].location = (0, 0, 0)
     root = thing.pose.bones["pelvis"]
     root.rotation_mode, root.rotation_euler, root.location = "XYZ", (0.2, 0.3, 0.4), (0.3, 0.1, 0)
@@ -193,7 +193,7 @@ def test_lines_of_limbs_are_made_anew_and_go():
         assert make(source, per_limb=3, ik="SPLINE", armature="Cast") == cast
         np.testing.assert_allclose(shown(source), rest, atol=3e-4)
         assert len(lines_of(cast)) == 5
-    end = cast.pose.bones["IK.limb.02.04.L"]
+    end = cast.pose.bones["IK.leg.04.L"]
     end.location = (0.1, 0.0, 0.1)
     bpy.context.view_layer.update()
     posed = shown(source)
@@ -226,7 +226,7 @@ def test_bones_are_added_to_an_armature_that_is_there(bind):
     for source, before in zip((first, second), places, strict=True):
         np.testing.assert_allclose(world_positions(source), before, atol=1e-4)
         assert [m.object for m in source.modifiers] == [cast]
-    name = next(b.name for b in cast.data.bones if b.name.startswith("limb.01.01.L"))
+    name = next(b.name for b in cast.data.bones if b.name.startswith("arm.01.L"))
     cast.pose.bones[name].rotation_mode = "XYZ"
     cast.pose.bones[name].rotation_euler = (1.0, 0, 0)
     moved = [np.abs(shown(s) - positions(s.data)).max() for s in (first, second)]

@@ -632,7 +632,7 @@ def test_reports_of_a_click(capfd):
     click(sampling="SURFACE", samples=1_000)
     infos = [text for kind, text in reports(capfd) if kind == "Info"]
     assert len(infos) == 1 and len(medial_objects()) == 1
-    assert "samples of the surface: as chosen; Epsilon: median" in infos[0]
+    assert infos[0].startswith("Done: 1 piece, ")
 
 
 def test_scan_on_an_ellipsoid_has_the_epsilon_of_its_spacing():

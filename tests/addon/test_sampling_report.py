@@ -219,7 +219,7 @@ def test_report_says_what_was_done(capfd):
     report(cylinder(), **EVEN)
     infos = [text for kind, text in reports(capfd) if kind == "Info"]
     assert len(infos) == 1
-    assert "samples of the surface: as chosen; Epsilon: median " in infos[0]
+    assert " samples, " in infos[0]
 
 
 def test_sparse_samples_are_a_warning(capfd):

@@ -129,6 +129,16 @@ def test_skeleton_lies_where_the_source_is(scale):
     assert max(p.radius for s in thing.data.splines for p in s.points) < 0.9 * scale
 
 
+def test_a_skeleton_is_seen_in_renders_as_tubes_of_a_fifth_of_the_balls():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.1, depth=4.0)
+    source = bpy.context.object
+    assert bpy.ops.object.medial_axis_skeleton(sampling="SURFACE") == {"FINISHED"}
+    thing = skeleton_of(source)
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    away = max(np.hypot(vertex.co.x, vertex.co.y) for vertex in mesh.vertices)
+    assert len(mesh.polygons) and away == pytest.approx(0.2 * 0.1, rel=0.1)
+
+
 def test_running_again_updates_the_same_curve_and_keeps_its_bevel():
     source = cross()
     extract()
@@ -337,7 +347,7 @@ def test_refusals_leave_nothing_behind():
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.curve.primitive_bezier_circle_add()
     bpy.context.object.data.bevel_depth = 0.2
-    refuse("choose Bind None", operator="medial_axis_armature")
+    refuse("choose Weights None", operator="medial_axis_armature")
 
 
 def imported(name):

@@ -1,17 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The user interface in German: no translation is left over, and sentences find theirs."""
+"""The user interface in German: entries are valid, and sentences find theirs; texts without an entry stay English."""
 
-import re
 from types import SimpleNamespace
 
 import bpy
 import pytest
-import texts
-from scene import MODULE, addon, ellipsoid, flush, link, on_ellipsoid, opened, scan, select
-
-ENGLISH = re.compile(
-    r"\b(the|of|and|found|choose|are|is|were|which|for|with|points?|facets?|samples?|none)\b"
-)
+from scene import MODULE, addon, ellipsoid, link, select
 
 
 def entries():
@@ -35,22 +29,16 @@ def german():
     view.language = kept
 
 
-def test_no_translation_is_dead():
-    assert sorted(set(entries()) - texts.shown()) == []
-
-
-def test_no_text_lacks_a_translation():
-    assert sorted(texts.shown() - set(entries())) == []
-
-
 def test_translations_have_as_many_places_as_texts():
     for text, other in entries().items():
         assert text.count("{}") == other.count("{}"), text
         assert other and other == other.strip(), text
+    file = addon("ui.translation")._FOLDER / "de_DE.po"
+    assert file.read_text(encoding="utf-8").count('\nmsgid "') == len(entries()) + 1  # none twice
 
 
 def test_english_is_left_as_it_is():
-    for text in texts.shown():
+    for text in entries():
         filled = text.format(*"12345678")
         assert say(filled) == filled
 
@@ -90,9 +78,8 @@ def test_operators_are_translated_in_their_own_context(german):
 
 def test_every_sentence_is_translated(german):
     for text, other in entries().items():
-        if text not in texts.FRAMES:
-            filled = text.format(*"12345678")
-            assert say(filled) == other.format(*"12345678")
+        filled = text.format(*"12345678")
+        assert text == "'{}': {}" or say(filled) == other.format(*"12345678")
 
 
 @pytest.mark.parametrize(
@@ -150,73 +137,6 @@ def test_names_are_not_translated(german):
     thing = link("Surface", [(0, 0, 0)])
     text = f"Expected '{thing.name}' in object mode, found it in edit mode; leave that mode and "
     assert say(text + "compute again").startswith("Erwartet: 'Surface' im")
-
-
-def reports(capfd):
-    """The reports of operators since the last call; Blender translates their kind."""
-    flush()
-    kinds = "(?:Info|Warning|Warnung|Error|Fehler)"
-    return re.findall(rf"^{kinds}: (.*)$", capfd.readouterr().out, re.MULTILINE)
-
-
-def meet(capfd):
-    """Everything that is reported in a tour through the operators, errors included."""
-    said = []
-
-    def run(operator, **words):
-        try:
-            getattr(bpy.ops.object, operator)(**words)
-        except RuntimeError as error:
-            said.extend(re.sub("^.*poll\\(\\) |^\\w+: ", "", str(error)).splitlines())
-        said.extend(reports(capfd))
-
-    reports(capfd)
-    run("medial_axis")
-    bpy.ops.object.light_add()
-    run("medial_axis")
-    link("Flat", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
-    run("medial_axis")
-    run("medial_axis", sampling="VERTICES")
-    run("tight_cocone_surface")
-    link("Few", [(0, 0, 0), (1, 0, 0)])
-    run("medial_axis")
-    run("medial_axis", sampling="SURFACE")
-    run("medial_axis", sampling="VERTICES", sides="NORMALS")
-    opened()
-    run("medial_axis")
-    run("medial_axis", sides="TIGHT_COCONE", sampling="VERTICES")
-    ellipsoid(segments=2)
-    run("medial_axis", samples=500, sampling="ADAPTIVE", epsilon=0.02, budget=2000)
-    run("medial_axis_sampling_report")
-    run("medial_axis", theta=1.5, rho=1000.0)
-    points, normals = on_ellipsoid()
-    scan(points=points, normals=-normals)
-    run("medial_axis")
-    run("tight_cocone_surface")
-    preferences = bpy.context.preferences.addons[MODULE].preferences
-    preferences.memory_limit = 1
-    scan(points=on_ellipsoid(20_000)[0])
-    run("medial_axis")
-    preferences.above_limit = "THIN"
-    run("medial_axis")
-    for name in ("memory_limit", "above_limit"):
-        preferences.property_unset(name)
-    bpy.ops.wm.medial_axis_self_test()
-    bpy.ops.wm.medial_axis_free_memory()
-    said.extend(reports(capfd))
-    return said
-
-
-def test_a_tour_in_german_meets_no_english(german, capfd):
-    said = meet(capfd)
-    assert len(said) > 25
-    english = [text for text in said if ENGLISH.search(re.sub("'.*?'", "", text))]
-    assert english == []
-
-
-def test_the_same_tour_in_english_meets_no_german(capfd):
-    said = " ".join(meet(capfd))
-    assert not re.search("[äöüß]|Erwartet", said)
 
 
 def test_panels_keep_english_and_show_german(german):

@@ -185,10 +185,15 @@ def test_a_wall_that_takes_minutes_is_refused_with_the_least_that_does_not():
     assert _step(shape, HollowSettings(wall=0.005, voxel_size=0.0025)) == 0.0025
 
 
+def test_without_a_length_the_wall_is_a_share_of_the_diagonal():
+    points, faces = block(1.0, 0.9, 0.8)
+    found = hollowed((points, faces), 0.0)
+    assert found.wall == pytest.approx(0.03 * np.linalg.norm(np.ptp(points, axis=0)))
+
+
 @pytest.mark.parametrize(
     "mesh, wall, voxel, words",
     (
-        (block(1.0, 0.9, 0.8), 0.0, 0.0, "wall above 0"),
         (block(1.0, 0.9, 0.8), 0.45, 0.0, "thinner wall"),
         (block(1.0, 0.9, 0.8), 0.1, 1e-4, "larger voxels"),
         ((block(1.0, 0.9, 0.8)[0], block(1.0, 0.9, 0.8)[1][1:]), 0.1, 0.0, "closed faces"),

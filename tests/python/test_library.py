@@ -164,7 +164,7 @@ POINTS, TRIANGLES = icosphere(1)
         ((POINTS,), {"smooth": "yes"}, "Expected smooth as bool, found 'yes'"),
         ((POINTS,), {"side": "top"}, "Expected side as one of 'automatic', 'inner'.*'top'"),
         ((POINTS,), {"side": medial_axis.Rule.BOTH}, "Expected side as one of"),
-        ((POINTS,), {"sides": "surface"}, "Expected faces for Inside From Surface"),
+        ((POINTS,), {"sides": "surface"}, "Expected faces for Inside Decided By Surface"),
     ],
 )
 def test_wrong_input_is_one_sentence(given, settings, said):

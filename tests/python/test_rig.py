@@ -9,7 +9,7 @@ from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.bones import bones_of
-from medial_axis.core.skeleton.names import names_of, target_of
+from medial_axis.core.skeleton.names import limbs_of, names_of, target_of
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
 from medial_axis.core.skeleton.roll import flats_of
@@ -96,7 +96,7 @@ def swapped(name):
 
 def test_a_figure_has_a_pelvis_a_spine_a_head_and_two_sides():
     names, bones, _ = named(biped())
-    sided = {f"IK.limb.0{limb}.{side}" for limb in (1, 2) for side in "LR"}
+    sided = {f"IK.{limb}.{side}" for limb in ("arm", "leg") for side in "LR"}
     assert stems(names) == {"pelvis", "IK.spine", "IK.head"} | sided
     for name, row in names.items():
         if name.endswith(".L"):
@@ -104,16 +104,26 @@ def test_a_figure_has_a_pelvis_a_spine_a_head_and_two_sides():
             np.testing.assert_allclose(
                 bones.tail[names[swapped(name)]], bones.tail[row] * (-1, 1, 1), atol=1e-12
             )
-    assert bones.tail[names["limb.01.01.L"], 2] > bones.tail[names["limb.02.01.L"], 2]  # arms first
-    assert bones.parent[names["limb.02.01.L"]] == names["pelvis"] == 0
-    assert bones.connected[names["spine.01"]] and not bones.connected[names["limb.02.01.L"]]
+    assert bones.tail[names["arm.01.L"], 2] > bones.tail[names["leg.01.L"], 2]  # arms first
+    assert bones.parent[names["leg.01.L"]] == names["pelvis"] == 0
+    assert bones.connected[names["spine.01"]] and not bones.connected[names["leg.01.L"]]
 
 
 def test_the_names_of_an_animal_go_from_head_to_tail():
     names, bones, _ = named(quadruped())
     assert {"pelvis", "spine.01", "head.01", "tail.01"} <= set(names)
     assert bones.head[names["pelvis"], 1] > 0.7
-    assert bones.tail[names["limb.01.01.L"], 1] < 0.0 < bones.tail[names["limb.02.01.L"], 1]
+    assert bones.tail[names["leg.01.01.L"], 1] < 0.0 < bones.tail[names["leg.02.01.L"], 1]
+    assert not any(name.startswith(("arm", "limb")) for name in names)
+
+
+def test_a_limb_has_three_bones_so_that_it_can_be_curled():
+    finger = skeleton(
+        ((0, 0, 0, 0.3), (0, 0, 1, 0.3)), *(((0, 0, 0, 0.3), (x, 0, -2, 0.1)) for x in (-1, 1))
+    )
+    _, _, bodies = named(finger)
+    counts = [len(rows) for rows in limbs_of(bodies)]
+    assert counts[-2:] == [3, 3]
 
 
 @pytest.mark.parametrize("figure", [biped, quadruped])
@@ -146,7 +156,7 @@ def test_the_pelvis_is_between_the_hips_wherever_legs_fork(fork):
     """Nearly parallel legs may fork at any height; hips and pelvis move by a third of its radius at most."""
     names, bones, _ = named(biped(fork))
     usual, first, _ = named(biped())
-    for name in ("pelvis", "limb.02.01.L"):
+    for name in ("pelvis", "leg.01.L"):
         off = bones.head[names[name]] - first.head[usual[name]]
         assert np.linalg.norm(off) < 0.07
 
@@ -160,7 +170,7 @@ def test_no_bone_is_shorter_than_the_balls_on_it(figure):
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_limbs_have_as_many_bones_as_wanted(count):
     names, bones, _ = named(biped(), count)
-    limbs = [row for name, row in names.items() if name.startswith("limb") and ".01." in name[7:]]
+    limbs = [row for name, row in names.items() if name[:7] in ("arm.01.", "leg.01.")]
     assert [int((bones.chain == bones.chain[row]).sum()) for row in limbs] == [count] * 4
     head = lengths(bones)[[row for name, row in names.items() if name.startswith("head")]]
     np.testing.assert_allclose(head, head.mean(), rtol=0.05)  # it is straight, and has room for two
@@ -189,10 +199,10 @@ def test_a_pose_keeps_the_pairs():
     assert {
         "pelvis",
         "head.01",
-        "limb.01.01.L",
-        "limb.01.01.R",
-        "limb.02.01.L",
-        "limb.02.01.R",
+        "arm.01.L",
+        "arm.01.R",
+        "leg.01.L",
+        "leg.01.R",
     } <= set(names)
     for name, row in names.items():
         if name[-2:] in (".L", ".R"):
@@ -228,11 +238,11 @@ def test_elbows_bend_in_their_plane_and_mirror_images_alike():
     for name, row in names.items():
         other = names[swapped(name)]
         np.testing.assert_allclose(bones.up[other] * (-1, 1, 1), bones.up[row], atol=1e-9)
-        if name.startswith("limb.01"):
+        if name.startswith("arm"):
             np.testing.assert_allclose(np.abs(hinges(bones)[row]), (0, 0, 1), atol=1e-6)
         if name.startswith(("pelvis", "spine", "head")):
             np.testing.assert_allclose(hinges(bones)[row], (1, 0, 0), atol=1e-9)
-    upper, lower = names["limb.01.01.L"], names["limb.01.02.L"]
+    upper, lower = names["arm.01.L"], names["arm.02.L"]
     bent = turn(hinges(bones)[lower], 0.2) @ along[lower]
     assert bent @ along[upper] < along[lower] @ along[upper]  # a positive angle bends further
 
@@ -298,7 +308,7 @@ def test_a_rod_and_a_ring_have_bones():
         ("spot_low.obj", {"pelvis", "IK.spine"}, False),
         pytest.param(
             "human_woman.obj",
-            {"pelvis", "IK.head", "IK.limb.01.L", "IK.limb.02.R"},
+            {"pelvis", "IK.head", "IK.arm.L", "IK.leg.R"},
             True,
             marks=pytest.mark.slow,
         ),

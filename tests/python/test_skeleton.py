@@ -335,7 +335,7 @@ def test_mirrored_model_mirrored_names():
         named.append(dict(zip(names_of(bodies, bones.count), bones.tail, strict=True)))
     first, second = named
     assert set(second) == set(first) == {swapped(name) for name in first}
-    assert {"pelvis", "spine.01", "limb.01.01.L", "limb.02.01.R"} <= set(first)
+    assert {"pelvis", "spine.01", "arm.01.L", "leg.01.R"} <= set(first)
     for name, tail in first.items():
         if name.endswith(".L"):
             assert tail[0] > 0 and second[name][0] > 0

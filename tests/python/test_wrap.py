@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inside From Wrap: faces that bound nothing get a closed surface, and radii are those up to the faces."""
+"""Inside Decided By Wrap: faces that bound nothing get a closed surface, and radii are those up to the faces."""
 
 import numpy as np
 import pytest
@@ -93,7 +93,7 @@ def test_the_same_faces_without_a_wrap_have_their_own_analysis():
 
 
 def test_points_alone_are_refused():
-    with pytest.raises(InvalidInputError, match="Expected faces for Inside From Wrap"):
+    with pytest.raises(InvalidInputError, match="Expected faces for Inside Decided By Wrap"):
         compute(np.random.default_rng(0).random((100, 3)), np.zeros((0, 3), np.int32), settings())
 
 

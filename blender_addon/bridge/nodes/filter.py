@@ -75,7 +75,7 @@ _FLOORS = (
         "Erosion",
         "ma_erosion",
         "NONE",
-        "Rims recede, as by Erode; percent of the diagonal, of the form Clean",
+        "Rims recede, as by Trim Rims; percent of the diagonal, of the form Clean",
     ),
 )
 

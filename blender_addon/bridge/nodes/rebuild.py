@@ -22,6 +22,7 @@ MATERIAL = "Material"
 _VOXEL = 2.0**-7  # the size at which the solid is made
 _FACES = 60_000.0  # about as many as the facets of an axis of 40,000 samples
 _MOST_DIVISIONS = 4.0
+_MEANS = 4  # of radii over the faces around a vertex
 
 
 def build(name: str) -> bpy.types.GeometryNodeTree:
@@ -60,7 +61,11 @@ def _divided(tree: Tree) -> NodeSocket:
 
 
 def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
-    """The solid with the radius of the nearest ball at each vertex, and with the colours of the axis for it."""
+    """The solid with the radius of the balls near each vertex, and with the colours of the axis for it.
+
+    That of the nearest one alone would jump from ball to ball, in teeth as wide as voxels. So it is the mean over the
+    faces around, several times.
+    """
     row = tree.node("GeometryNodeSampleNearest", points, domain="POINT")
     radius = tree.node(
         "GeometryNodeSampleIndex",
@@ -68,16 +73,24 @@ def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
         data_type="FLOAT",
         domain="POINT",
     )
-    mesh = tree.node(
+    mesh = _stored(tree, mesh, radius)
+    mean = tree.attribute(RADIUS.name)
+    for domain in ("FACE", "POINT") * _MEANS:
+        mean = tree.node("GeometryNodeFieldOnDomain", mean, data_type="FLOAT", domain=domain)
+    mesh = _stored(tree, mesh, mean)
+    least, most = _range_of_radii(tree)
+    start = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
+    above = tree.math("SUBTRACT", tree.attribute(RADIUS.name), start)
+    return stored_colour(tree, mesh, tree.math("DIVIDE", above, tree.math("SUBTRACT", most, start)))
+
+
+def _stored(tree: Tree, mesh: NodeSocket, radius: NodeSocket) -> NodeSocket:
+    return tree.node(
         "GeometryNodeStoreNamedAttribute",
         named={"Geometry": mesh, "Name": RADIUS.name, "Value": radius},
         data_type="FLOAT",
         domain="POINT",
     )
-    least, most = _range_of_radii(tree)
-    start = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
-    above = tree.math("SUBTRACT", tree.attribute(RADIUS.name), start)
-    return stored_colour(tree, mesh, tree.math("DIVIDE", above, tree.math("SUBTRACT", most, start)))
 
 
 def _range_of_radii(tree: Tree) -> list[NodeSocket]:

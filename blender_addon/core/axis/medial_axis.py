@@ -33,9 +33,9 @@ class LevelValues:
     exact_radius : (v,) float64
         The radius of the empty ball round each Voronoi vertex.
     sheet, erosion : (f,) float32
-        The largest Simplify and Erode at which the facet stays, in percent of the diagonal; infinite: always.
+        The largest Simplify and Trim Rims at which the facet stays, in percent of the diagonal; infinite: always.
     limb : (w,) float32
-        The largest Limbs at which the edge stays, in percent of the diagonal; infinite: always.
+        The largest Shortest Limb at which the edge stays, in percent of the diagonal; infinite: always.
     betti : tuple of int
         Pieces, loops and cavities, counted on this level.
     place : (v,) int32
@@ -45,7 +45,7 @@ class LevelValues:
         The size of the piece of each vertex in spacings of the samples, infinite where it is no crumb (`crumbs.py`);
         None where it is not known.
     ranges : dict of SliderRange
-        The ranges of Simplify, Erode and Limbs, by the names of the settings; empty where they are not known.
+        The ranges of Simplify, Trim Rims and Shortest Limb, by the names of the settings; empty: not known.
     gap : float or None
         The value of Simplify in a clear gap between thin sheets and others; None where there is none (`gap.py`).
     loops_left_out : int

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lengths over which sliders act, and the share of what can go that each of them takes away.
 
-Simplify drops whole sheets, Erode and Spikes facets, and Limbs edges, each at its own length. On one model all of
-them go below 3 % of the diagonal, on another nothing does. A slider that runs over shares acts from end to end
-on both. Rho is a ratio and no length; on most models it selects facets between 1.5 and 16 only.
+Simplify drops whole sheets, Trim Rims and Remove Spikes facets, and Shortest Limb edges, each at its own length. On
+one model all of them go below 3 % of the diagonal, on another nothing does. A slider that runs over shares acts from
+end to end on both. Rho is a ratio and no length; on most models it selects facets between 1.5 and 16 only.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ def solid_warnings(
     if normals_look_inward(sides, chosen):
         yield Severe(
             "the normals point inward, so inside and outside are exchanged; turn them round, "
-            "or choose Inside From Tight Cocone, and compute again"
+            "or choose Inside Decided By Tight Cocone, and compute again"
         )
 
 

@@ -30,7 +30,7 @@ _LEAST = 5_000
 _UNEVEN = 4.0
 _OF_CUBES = (
     "the faces are sides of cubes and were left as they are; if they are the steps of a scan, which are noise, "
-    "Prepare Always moves the vertices"
+    "Denoise Always moves the vertices"
 )
 
 
@@ -76,7 +76,7 @@ def smooth_faces(
     moved = float(np.median(np.sqrt(dot(away, away)))) / measure.spacing
     return replace(shape, points=points), (
         f"noise or steps of about {noise:.2g} spacings were found in the faces: their vertices were moved by "
-        f"{moved:.2g} spacings in the median, so edges and details of that size are rounded, and Prepare Off takes the "
+        f"{moved:.2g} spacings in the median, so edges and details of that size are rounded, and Denoise Off takes the "
         "faces as they are"
     )
 
@@ -94,7 +94,7 @@ def _left(noise: float, prepare: Prepare) -> str:
     if prepare is Prepare.OFF:
         return (
             f"noise or steps of about {noise:.2g} spacings were found in the faces and left as they are, so the axis "
-            "may have flakes; Prepare Automatic moves the vertices"
+            "may have flakes; Denoise Automatic moves the vertices"
         )
     return (
         f"noise or steps of about {noise:.2g} spacings were found in the faces, too much to move the vertices, so the "

@@ -170,7 +170,7 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
     if scan.outliers and scan.kept < scan.given:
         yield f"{scan.outliers:,} of {scan.given:,} points stood alone and were left out"
     elif scan.outliers:
-        yield f"{scan.outliers:,} of {scan.given:,} points stand alone: outliers, which Prepare Automatic leaves out"
+        yield f"{scan.outliers:,} of {scan.given:,} points stand alone: outliers, which Denoise Automatic leaves out"
     if scan.border > _ENDS and sides is SidesFrom.POLES:
         yield (
             f"the surface ends at {percent(scan.border)} of the points: openings, or a sheet as of a facade, "
@@ -211,10 +211,10 @@ def _noise(scan: Scan) -> Iterator[str]:
         yield (
             f"{size} was found: the points were moved by {np.median(scan.moved) / scan.spacing:.2g} spacings in "
             f"the median, and {scan.kept:,} of {scan.given:,} were kept; walls and details thinner than about "
-            f"{lost:.2g} are lost, and Prepare Off analyses the points as they are"
+            f"{lost:.2g} are lost, and Denoise Off analyses the points as they are"
         )
     elif scan.noise > SOME:
-        yield f"{size} was found and left as it is, so the axis may have flakes; Prepare Automatic moves it away"
+        yield f"{size} was found and left as it is, so the axis may have flakes; Denoise Automatic moves it away"
     if scan.noise > SOME and scan.kurtosis < _LAYERED and not scan.does_not_fit:
         yield (
             f"the points lie in layers, about {2 * scan.noise * scan.spacing:.2g} apart, and not as errors do: scans "

@@ -58,13 +58,13 @@ def resolve_sides(
         return _automatic(len(triangles) > 0, gaps, has_normals)
     if wanted is SidesFrom.SURFACE and not len(triangles):
         raise InvalidInputError(
-            "Expected faces for Inside From Surface, found points only; "
-            "choose Inside From Automatic or Tight Cocone"
+            "Expected faces for Inside Decided By Surface, found points only; "
+            "choose Inside Decided By Automatic or Tight Cocone"
         )
     if wanted is SidesFrom.NORMALS and not has_normals:
         raise InvalidInputError(
             "Expected an attribute 'normal' of the points, vectors that are not all zero, for "
-            "Inside From Normals, found none; choose Inside From Automatic or Tight Cocone"
+            "Inside Decided By Normals, found none; choose Inside Decided By Automatic or Tight Cocone"
         )
     return Sides(wanted, "as chosen", is_chosen=True)
 
@@ -150,7 +150,7 @@ def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
         )
     return DegenerateInputError(
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
+        "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it"
     )
 
 
@@ -224,7 +224,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
     if found.cavities:
         yield (
             f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
-            "which Tight Cocone fills; faces, normals or Inside From Poles would keep them"
+            "which Tight Cocone fills; faces, normals or Inside Decided By Poles would keep them"
         )
     uneven = np.count_nonzero(~found.flat) / samples
     if uneven > _UNEVEN:

@@ -32,8 +32,8 @@ def wrapped_shape(shape: Shape, settings: Settings, progress: Progress | None = 
     """
     if not len(shape.triangles):
         raise InvalidInputError(
-            "Expected faces for Inside From Wrap, found points only; "
-            "choose Inside From Automatic or Tight Cocone"
+            "Expected faces for Inside Decided By Wrap, found points only; "
+            "choose Inside Decided By Automatic or Tight Cocone"
         )
     opening = settings.wrap_opening / 100
     distance = _DISTANCE * opening

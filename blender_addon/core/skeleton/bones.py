@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _HIPS = 0.75  # the pelvis is at most so many radii above the place between the hips
 _BEFORE = 0.5  # a limb has what lies so many radii before its head, so that its skin bends evenly on both sides
+_LEAST = 3  # bones of a limb, so that it can be curled, as a finger
 _TRIED = 24  # so many places are tried for the start of a limb, from the rim of the ball inwards
 
 
@@ -196,7 +197,7 @@ class _Maker:
         self._add_along(body, body.spine, marks, -1, False)
 
     def _count_of(self, chain: Chain) -> int:
-        return self._per_limb if chain.to_tip else 0
+        return _count(chain, _begin(chain, True), self._per_limb)
 
     def _add_chain(self, body: Body, number: int, hangs_on: int, count: int) -> int:
         """Add the bones of a chain, and return the last of them; a chain too short for one leaves all to its parent."""
@@ -330,14 +331,32 @@ def _goes_on(tree: list[Chain], sides: Sides, parent: int) -> int:
 
 
 def _counts(body: Body, per_limb: int) -> list[int]:
-    """Return the number of bones for each chain, or 0 for as many as it needs: a pair has equally many."""
-    counts = [per_limb if chain.to_tip else 0 for chain in body.tree]
+    """Return the number of bones for each chain: a pair has equally many."""
+    begins = [_begin(chain, False) for chain in body.tree]
+    counts = []
+    for n, chain in enumerate(body.tree):
+        is_head = (
+            bool(body.sides.within[n]) and chain.parent >= 0 and body.goes_on[chain.parent] == n
+        )
+        counts.append(_count(chain, begins[n], per_limb, 0 if is_head else _LEAST))
     for a, b in enumerate(body.sides.partner.tolist()):
-        if b > a and not counts[a]:
-            begins = [(body.tree[n], _begin(body.tree[n], False)) for n in (a, b)]
-            needed = [len(joints_of(c, begin)) - 1 for c, begin in begins if begin is not None]
-            counts[a] = counts[b] = max(needed, default=0)
+        if b > a:
+            both = max(counts[a], counts[b])
+            counts[a] = counts[b] = min(_room(body.tree[n], begins[n], both) for n in (a, b))
     return counts
+
+
+def _count(chain: Chain, begin: float | None, per_limb: int, least: int = _LEAST) -> int:
+    """Return the number of bones of a chain: a limb has at least `least`, where there is room."""
+    if chain.to_tip and per_limb:
+        return per_limb
+    needed = _room(chain, begin, 0)
+    return max(needed, least) if chain.to_tip else needed
+
+
+def _room(chain: Chain, begin: float | None, count: int) -> int:
+    """Return the number of bones that a chain gets of those that are asked for, or of those that it needs."""
+    return 0 if begin is None else len(joints_of(chain, begin, count)) - 1
 
 
 def _begin(chain: Chain, goes_on: bool) -> float | None:

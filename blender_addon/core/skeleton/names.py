@@ -2,8 +2,11 @@
 """Bones are named by what the shape tells of their chains, in order from head to tail and from the root outwards.
 
 Where a body has two sides, its root is called pelvis if limbs go out on both; the bones between the sides are called
-spine, head and tail. `limb.02.03.L` is the third bone of the second limb, and `limb.02.03.R` its mirror image; chains
-between forks are called trunk. Left means positive X, as in Blender. No limb is guessed to be an arm or a leg.
+spine, head and tail. The limbs of a pair that leaves the pelvis are legs, and so are those that reach at least half as
+far in their direction; of a body with one pair of legs the longest other pair that leaves the spine are arms. Which
+way the body is turned does not matter. `arm.02.L` is the second bone of the left arm, and `leg.01.02.L` that of the
+first of several legs. All else is called limb: `limb.02.03.L` is the third bone of the second limb, `limb.02.03.R` its
+mirror image; chains between forks are called trunk. Left means positive X, as in Blender.
 """
 
 from __future__ import annotations
@@ -14,7 +17,12 @@ from ..small_matrices import dot
 from .roll import upright
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from .bones import Body
+
+_REACH = 0.5  # of the way of the hind legs: legs reach at least so far
 
 
 def names_of(bodies: list[Body], count: int) -> list[str]:
@@ -47,16 +55,44 @@ def _names_of_body(body: Body) -> dict[int, str]:
         bones = [bone for number in chains for bone in body.bones[number] if bone != body.root]
         names |= {bone: f"{word}.{step + 1:02d}" for step, bone in enumerate(bones)}
     rest = [n for n in _from_head_to_tail(body) if not any(n in m for m in middle.values())]
-    for word, to_tip in (("trunk", False), ("limb", True)):
-        alike = [n for n in rest if body.tree[n].to_tip == to_tip]
-        for number, pair in enumerate(_with_partners(body, alike)):
+    arms, legs = _arms_and_legs(body, _with_partners(body, rest), {-1, *middle.get("spine", ())})
+    named = [n for pair in arms + legs for n in pair.values()]
+    trunks, limbs = (
+        _with_partners(body, [n for n in rest if body.tree[n].to_tip == to_tip and n not in named])
+        for to_tip in (False, True)
+    )
+    for word, pairs in {"arm": arms, "leg": legs, "trunk": trunks, "limb": limbs}.items():
+        alone = word == "arm" or (word == "leg" and len(pairs) == 1)
+        for number, pair in enumerate(pairs):
+            stem = word if alone else f"{word}.{number + 1:02d}"
             for side, chain in pair.items():
                 bones = [bone for bone in body.bones[chain] if bone != body.root]
-                names |= {
-                    bone: f"{word}.{number + 1:02d}.{step + 1:02d}{side}"
-                    for step, bone in enumerate(bones)
-                }
+                names |= {bone: f"{stem}.{step + 1:02d}{side}" for step, bone in enumerate(bones)}
     return names | {body.root: "pelvis" if forked else "root"}
+
+
+def _arms_and_legs(
+    body: Body, pairs: list[dict[str, int]], middle: set[int]
+) -> tuple[list[dict[str, int]], list[dict[str, int]]]:
+    """Return the pairs of chains that are arms and those that are legs; both leave the chains of the middle."""
+    pairs = [pair for pair in pairs if len(pair) == 2 and body.tree[pair[".L"]].parent in middle]
+    hind = [pair for pair in pairs if body.tree[pair[".L"]].parent < 0]
+    if not hind:
+        return [], []
+
+    def length(pair: dict[str, int]) -> float:
+        return body.tree[pair[".L"]].length
+
+    def mean(pair: dict[str, int], row: int) -> NDArray[np.float64]:
+        left, right = (body.tree[number].points[row] for number in pair.values())
+        return (left + right) / 2
+
+    longest = max(hind, key=length)
+    start = mean(longest, 0)
+    down = mean(longest, -1) - start
+    legs = [p for p in pairs if float(dot(mean(p, -1) - start, down)) >= _REACH * dot(down, down)]
+    others = [pair for pair in pairs if pair not in legs]
+    return ([max(others, key=length)] if others and len(legs) == 1 else []), legs
 
 
 def _of_the_middle(body: Body) -> dict[str, list[int]]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..samples.outward_faces import are_left_out, outward_shape, reading_warning
 from ..samples.own_frame import rounding_warning
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
-from ..small_matrices import dot
+from ..small_matrices import dot, length_of
 from ..united import united
 from .offset_surface import COARSEST, OffsetSurface, offset_surface
 
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from ..samples.shape import Shape
 
+_WALL = 0.03  # of the diagonal: the wall where none is asked for
 _FINEST = 0.25  # of the wall: the step of the lattice where nothing else is asked for
 # The step grows until the faces have the area of so many of its squares, which take about ten seconds.
 _SQUARES = 75_000
@@ -107,14 +108,16 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     Raises
     ------
     InvalidInputError
-        The wall is not above 0, the faces do not enclose a solid, or no place in it is so far from them.
+        The faces do not enclose a solid, or no place in it is so far from them.
     DegenerateInputError
         The faces are an open sheet.
     NativeModuleError, OutOfMemoryError, Cancelled
     """
     start, progress = time.perf_counter(), progress or Progress()
     shape = outward_shape(shape)
-    _check(shape, wanted)
+    _check(shape)
+    diagonal = length_of(np.ptp(shape.points[shape.triangles.ravel()], axis=0))
+    wanted = replace(wanted, wall=wanted.wall or _WALL * diagonal)
     faces = shape.triangles[~are_left_out(shape)]
     step = _step(shape, wanted)
     surface = _surface(shape.points, faces, wanted.wall, step, progress)
@@ -126,9 +129,7 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     return _shell(shape, faces, surface, wanted.wall, step, progress, start)
 
 
-def _check(shape: Shape, wanted: HollowSettings) -> None:
-    if not wanted.wall > 0.0:
-        raise InvalidInputError("Expected a wall above 0, found 0; set Wall to a thickness")
+def _check(shape: Shape) -> None:
     if not len(shape.triangles) or shape.open_edges or not shape.volume > 0.0:
         check_no_sheet(shape)
         raise InvalidInputError(

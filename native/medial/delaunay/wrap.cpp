@@ -112,7 +112,7 @@ Wrapping wrap(std::span<const Vec3> rows, std::span<const Triangle> triangles, d
 Wrapping wrap(std::span<const Vec3>, std::span<const Triangle>, double, double, const Run&) {
   throw InvalidInputError(
       "Expected CGAL 5.5 or newer for wrapping, found an older one when this module was compiled; "
-      "choose another Inside From");
+      "choose another Inside Decided By");
 }
 #endif
 

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The words of the window: one line that begins with what to do or what was found."""
+
+import re
+
+import bpy
+import pytest
+from scene import addon
+
+
+@pytest.mark.parametrize(
+    ("kind", "sentence", "line"),
+    [
+        (
+            "FONT",
+            "Expected faces that span a volume, found all of them in one plane; give them thickness",
+            "This text is flat: give it Extrude.",
+        ),
+        (
+            "MESH",
+            "Expected faces that bound a solid, found an open sheet (320 open edges); give it thickness (a "
+            "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it",
+            "This mesh is open: add Solidify, or choose Side: Both.",
+        ),
+        (
+            "MESH",
+            "Expected a mesh of this file, found another object; convert it to a mesh, or link it",
+            "Convert it to a mesh.",
+        ),
+        (
+            "MESH",
+            "Expected a surface with faces, found one without",
+            "This needs a surface with faces.",
+        ),
+        ("MESH", "Press Measure Thickness to apply this", "Press Measure Thickness to apply this"),
+    ],
+)
+def test_sentences_of_the_library_become_one_line(kind, sentence, line):
+    assert addon("ui.plain_words").in_one_line(sentence, kind) == line
+
+
+def test_the_kind_and_the_name_are_those_of_the_object():
+    bpy.ops.object.text_add()
+    words, thing = addon("ui.plain_words"), bpy.context.object
+    flat = "Expected faces that span a volume, found all of them in one plane; give them thickness"
+    assert words.in_one_line(f"'{thing.name}': {flat}") == "This text is flat: give it Extrude."
+    other = "Expected points, found none; add some, or change the modifiers that remove them"
+    assert words.in_one_line(f"'{thing.name}': {other}") == f"'{thing.name}': Add some."
+
+
+def test_no_error_of_the_sources_shows_its_grammar():
+    """Every sentence that the sources write as one text: in the window, nothing of it reads Expected, found."""
+    from pathlib import Path
+
+    folder = Path(addon().__file__).parent
+    sources = (path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
+    found = [
+        text for source in sources for text in re.findall(r'"(Expected [^"{]+[^"{ ])"\n', source)
+    ]
+    assert len(found) > 3
+    for sentence in found:
+        assert not addon("ui.plain_words").in_one_line(sentence).startswith("Expected"), sentence
+
+
+def test_warnings_are_what_was_found_in_few_letters():
+    words = addon("ui.plain_words")
+    assert (
+        words.warned("the surface is open at 84 edges: inside was guessed")
+        == "Openings were closed"
+    )
+    assert all(len(short) <= 25 for short in addon("core.axis.verdict")._IN_SHORT.values())
+
+
+def test_a_computation_says_what_it_does_in_one_word():
+    doing = addon("ui.plain_words").doing
+    assert [doing(stage) for stage in ("Sharp edges", "Crisp places", "Fire", "Wires")] == [
+        "Sampling",
+        "Building",
+        "Cleaning",
+        "Drawing",
+    ]
+    assert doing("1 of 2: Poles") == "1 of 2: Building" and doing("Pass 2: Poles") == "Building"

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rows that the tab has before the first click and after it."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from scene import MODULE, addon, select, suzanne
+
+MAIN = "VIEW3D_PT_medial_axis"
+
+
+class Layout:
+    """Counts the rows that are drawn, a line of text, a button or a field each; those in a row are one."""
+
+    def __init__(self, rows=None, inside=False):
+        self.rows, self._inside, self._counted = [] if rows is None else rows, inside, False
+
+    def column(self, **_):
+        return Layout(self.rows, self._inside)
+
+    box = column
+
+    def row(self, **_):
+        if not self._inside:
+            self.rows.append([])
+        return Layout(self.rows, inside=True)
+
+    split = row
+
+    def _item(self, *words, text=None, **_):
+        if not self._inside:
+            self.rows.append([])
+        self.rows[-1].append(text or words[-1] if words else text)
+        return SimpleNamespace()
+
+    label = prop = operator = menu = _item
+
+
+def seen(is_colour=False):
+    """A viewport whose sidebar is wide, as panels ask for it."""
+    shading = SimpleNamespace(type="SOLID", color_type="VERTEX" if is_colour else "MATERIAL")
+    words = (
+        "scene",
+        "object",
+        "active_object",
+        "view_layer",
+        "selected_objects",
+        "objects_in_mode",
+    )
+    return SimpleNamespace(
+        space_data=SimpleNamespace(shading=shading, as_pointer=lambda: 0),
+        region=SimpleNamespace(width=400, as_pointer=lambda: 0),
+        preferences=bpy.context.preferences,
+        **{word: getattr(bpy.context, word, None) for word in words},
+    )
+
+
+def rows(context):
+    """The rows of the tab as it is at first: headers of panels, and what is in those that are open."""
+    ours = (c for c in bpy.types.Panel.__subclasses__() if c.__module__.startswith(MODULE))
+    panels = [cls for cls in ours if cls.is_registered]  # not those of an add-on that was disabled
+    found = Layout()
+    for cls in panels:
+        is_main = getattr(cls, "bl_idname", "") == MAIN
+        if not is_main and getattr(cls, "bl_parent_id", "") != MAIN:
+            continue
+        if hasattr(cls, "poll") and not cls.poll(context):
+            continue
+        if not is_main:
+            found.label(text=cls.bl_label)
+        if "DEFAULT_CLOSED" not in getattr(cls, "bl_options", ()):
+            cls.draw(SimpleNamespace(layout=found), context)
+    return found.rows
+
+
+@pytest.fixture
+def newcomer():
+    preferences = bpy.context.preferences.addons[MODULE].preferences
+    preferences.property_unset("guided")
+    yield preferences
+    preferences.property_unset("guided")
+
+
+def test_few_rows_before_the_first_click_and_after_it(newcomer):
+    source = suzanne(levels=0)
+    assert len(rows(seen())) <= 9, rows(seen())
+    assert bpy.ops.object.medial_axis() == {"FINISHED"}
+    select(source)
+    assert newcomer.guided, "who has computed an axis is no longer new"
+    assert len(rows(seen())) <= 18, rows(seen())
+    assert len(rows(seen(is_colour=True))) <= 18
+
+
+def test_hollow_and_unsolidify_need_no_measurement():
+    select(suzanne(levels=0))
+    found = Layout()
+    panel = addon("ui.thickness_panel").VIEW3D_PT_medial_axis_thickness
+    panel.draw(SimpleNamespace(layout=found), seen())
+    drawn = {text for row in found.rows for text in row}
+    assert {"object.medial_axis_unsolidify", "object.medial_axis_hollow"} <= drawn
+
+
+def test_hollow_without_a_wall_takes_a_share_of_the_diagonal():
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    assert bpy.ops.object.medial_axis_hollow() == {"FINISHED"}
+    assert bpy.data.objects["Cube Hollow"]["ma_hollow_least"] == pytest.approx(
+        0.06 * 3**0.5, rel=0.02
+    )
