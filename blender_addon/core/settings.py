@@ -111,8 +111,6 @@ CACHE_SIZE = Integer(
 )
 MEGABYTE = 1 << 20  # bytes
 
-# These options need another analysis; the others only select facets of the analysis that exists.
-ANALYSED = ("side", "sides", "sampling")
 COARSE = 4_000  # samples of a quick answer
 # These options determine how faces are sampled; the choice of Sampling determines which of them matter.
 SAMPLING_OPTIONS = (
@@ -128,6 +126,8 @@ SAMPLING_OPTIONS = (
     "pairs",
     "seed",
 )
+# These options need another analysis; the others only select facets of the analysis that exists.
+ANALYSED = ("side", "sides", "sampling", *SAMPLING_OPTIONS)
 
 
 def applies_to_form(name: str, form: Form) -> bool:

@@ -12,6 +12,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 
 from ..bridge.axis_object import (
     ANALYSIS,
+    asked_of,
+    asked_on,
     box_on,
     is_result,
     result_of,
@@ -213,7 +215,7 @@ def _refilter(panel, context):
 
 def _wanted(kept, panel):
     """The settings of the panel but for those that need another analysis."""
-    return replace(settings_from(panel), **{name: getattr(kept, name) for name in _ANALYSED})
+    return replace(settings_from(panel), **{name: getattr(kept, name) for name in ANALYSED})
 
 
 def _after_undo(_scene, _depsgraph=None):
@@ -276,19 +278,12 @@ def _levels_stay(kept, wanted) -> bool:
 
 
 def needs_analysis(result, panel) -> bool:
-    """Whether the panel has other settings than those of a result that only another analysis would apply.
-
-    A result remembers what Automatic chose, so Automatic agrees with everything.
-    """
-    kept, wanted = settings_of(result), settings_from(panel)
-    for name in _ANALYSED:
-        value = getattr(wanted, name)
-        if getattr(value, "name", "") != "AUTOMATIC" and value != getattr(kept, name):
-            return True
-    return False
+    """Whether the panel asks for another analysis than a result was asked for, whatever Automatic then chose."""
+    asked = asked_on(result)
+    return asked is not None and asked != asked_of(settings_from(panel))
 
 
-_ANALYSED = {name: OPTIONS[name] for name in (*ANALYSED, *SAMPLING_OPTIONS)}
+_ANALYSED = {name: OPTIONS[name] for name in ANALYSED}
 _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYSED} | LOOKS
 
 
