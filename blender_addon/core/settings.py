@@ -233,19 +233,22 @@ class Settings(Options):
     )
     theta: float = number(
         "Theta",
-        "Angle condition: keep a facet when the line between its two samples leaves "
-        "the surface at more than this angle. Larger values keep less",
+        "More leaves sheets between walls that face each other; less lets them run into shallow bumps, dents and "
+        "notches, too: a facet stays when the line between its two samples leaves the surface at more than this "
+        "angle. Grey where Rho keeps what it drops",
         default=math.pi / 8,
         limits=(0.0, math.pi / 2),
+        soft_maximum=math.pi / 4,
         unit="rad",
     )
     rho: float = number(
         "Rho",
-        "Ratio condition: keep a facet when its two samples are farther apart "
-        "than this many times the spacing of samples there. Larger values keep less",
+        "More leaves what is thick for how densely it is sampled; less keeps fine detail and fringes, too: a facet "
+        "stays when its two samples are farther apart than this many times the spacing of samples there. Grey where "
+        "Theta keeps what it drops",
         default=8.0,
         limits=(0.0, math.inf),
-        soft_maximum=64.0,
+        soft_maximum=16.0,
     )
     side: Side = choice(
         "Side",

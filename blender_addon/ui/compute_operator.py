@@ -13,6 +13,7 @@ from ..bridge.source_state import remember_state, state_of
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
 from . import current_job
+from .alone import Alone
 from .select_made import select_made
 from .selected_sources import Source, obstacle, sources
 from .translation import say
@@ -45,6 +46,7 @@ class ComputeOperator(FromSelection, WatchedJob):
     """
 
     product = ""
+    alone = False  # a property, where the product fills the place of what it is made of
 
     select_result: bpy.props.BoolProperty(
         name="Select Result",
@@ -62,6 +64,8 @@ class ComputeOperator(FromSelection, WatchedJob):
             return self.execute(context)
         if not self.properties.is_property_set("select_result"):
             self.select_result = False
+        if isinstance(self, Alone) and not self.properties.is_property_set("alone"):
+            self.alone = True
         self._sources, tasks = self._read(context)
         if not tasks:
             return {"CANCELLED"}
@@ -140,7 +144,7 @@ class ComputeOperator(FromSelection, WatchedJob):
             self._tell(context, "ERROR", f"'{name}': {_sentence(errors)}")
         made = [thing for thing in made if thing is not None]
         self.settle(made)
-        if self.select_result:
+        if self.select_result or self.alone:
             select_made(context, made)
         current_job.settle()
         return {"FINISHED"} if made else {"CANCELLED"}
@@ -154,13 +158,15 @@ class ComputeOperator(FromSelection, WatchedJob):
                 context, "WARNING", f"'{source.name}' is gone; its {self.product} was dropped"
             )
             return None
-        start = time.perf_counter()
+        start, before = time.perf_counter(), set(bpy.data.objects)
         write = partial(self.write_part, source.part) if source.part else self.write
         made = write(thing, outcome.value, source.frame)
         if made is not None and made != thing:
             follow(made, thing, source.world, self.parent)
         if made is not None:
             remember_state(made, source.state)
+        if self.alone and made is not None and made not in before and thing.visible_get():
+            thing.hide_set(True)
         seconds = outcome.value.seconds + time.perf_counter() - start
         for warning in outcome.value.warnings:
             text = f"'{source.name}': {warning}"

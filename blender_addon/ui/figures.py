@@ -5,14 +5,16 @@ import bpy
 
 from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
+from ..bridge.heat_map import shown_heat
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
+from ..bridge.thickness_object import HISTOGRAM, scale_on
 from ..core.axis.topology import betti_in_short
 from ..core.axis.verdict import Light, in_short
 from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
-from .legend import draw_legend, light
+from .legend import draw_legend, draw_thickness_legend, light
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
 from .translation import say
@@ -160,17 +162,29 @@ def why_outdated(context, result):
 
 
 def _draw_legend(context, layout, thing):
-    """The range of its colours, where it is coloured; pale while no one sees them, so that no row below moves."""
-    found = colour_range(thing)
-    if found is None:
-        return
-    name, start, end = found
+    """The range of the colours that are shown; pale while no one sees them, so that no row below moves."""
     layout = layout.column()
     layout.active = shows_colours(context.space_data)
-    if name == report_object.EPSILON.name:
-        draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
-    else:
-        draw_legend(layout, length_text(context, start), length_text(context, end))
+    if axis_object.is_result(thing) and (carrier := shown_heat(thing)):
+        draw_thickness(context, layout, carrier)
+    elif found := colour_range(thing):
+        name, start, end = found
+        if name == report_object.EPSILON.name:
+            draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
+            return
+        low, high = length_text(context, end), length_text(context, start)
+        is_one = _range_text(context, *axis_object.radius_range(thing)) == high
+        draw_legend(layout, "" if is_one else low, high, turned=True)
+
+
+def draw_thickness(context, layout, carrier):
+    """The legend of a thickness, with the shares of the surface."""
+    scale = scale_on(carrier)
+    if scale is None:
+        return
+    low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
+    middle = limit if scale.limit > scale.low else ""
+    draw_thickness_legend(layout, scale, list(carrier[HISTOGRAM]), (low, middle, high))
 
 
 def _range_text(context, smallest, largest):

@@ -21,12 +21,12 @@ _LIGHTS = {
 _icons = None
 
 
-def draw_legend(layout, start, end):
-    """The scale of colours over two texts, what is blue and what is yellow."""
+def draw_legend(layout, start, end, turned=False):
+    """The scale of colours over two texts, from blue to yellow, or turned round."""
     column = layout.column(align=True)
     scale = column.row(align=True)
     scale.scale_y = 0.7
-    for step in range(_STEPS):
+    for step in range(_STEPS)[:: -1 if turned else 1]:
         scale.label(text="", icon_value=_icon(f"step {step}", step))
     _draw_ends(column, (start, "", end))
 

@@ -7,6 +7,7 @@ import bpy
 
 from ..bridge.axes_of_parts import remove_other_parts, write_result_of_part
 from ..bridge.axis_object import check_writable, write_result
+from ..bridge.heat_map import show_axis
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.parts_objects import MOST
 from ..bridge.report_object import (
@@ -97,6 +98,9 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     def settle(self, made):
         if self.each_part:
             remove_other_parts(made)
+        if not self.select_result:  # in a window
+            for axis in made:
+                show_axis(axis)
 
     def summary(self, found):
         computation = found.computation

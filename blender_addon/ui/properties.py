@@ -20,6 +20,7 @@ from ..bridge.axis_object import (
     settings_of,
     update_result,
 )
+from ..bridge.heat_map import show_axis, shown_heat
 from ..bridge.output_object import WARNINGS, is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
@@ -199,6 +200,22 @@ def _of_source(source, is_kind, of_source):
     return source if is_kind(source) else of_source(source)
 
 
+def note_of(context) -> list:
+    """The lines of the note that concern the active object: it was active when they were told, or they name it."""
+    panel, name = context.scene.medial_axis, _name_of_active(context)
+    lines = panel.note.splitlines()
+    return lines if panel.whose == name else [line for line in lines if f"'{name}'" in line]
+
+
+def _remember_whose(panel, context):
+    panel.whose = _name_of_active(context)
+
+
+def _name_of_active(context):
+    active = getattr(context, "object", None)
+    return active.name if active is not None else ""
+
+
 def _refilter(panel, context):
     """Apply new thresholds to the shown result at once, as long as its analysis is kept."""
     panel.note = ""
@@ -268,7 +285,11 @@ def _show_refiltered(look, result, wanted, found, between_steps=False) -> str:
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
     update_result(result, shown, settings, topology, look, between_steps)
-    return ""
+    if shown_heat(result) is not None:
+        show_axis(result)
+    axis = shown.axis
+    is_seen = axis.facets or len(axis.edges)
+    return "" if is_seen else "Only the largest balls are left, points that views do not show"
 
 
 def _levels_stay(kept, wanted) -> bool:
@@ -293,7 +314,8 @@ _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYS
 class MedialAxisPanelSettings(bpy.types.PropertyGroup):
     """The settings of the sidebar panel; those that need no other analysis act on the result at once."""
 
-    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"}, update=_remember_whose)
+    whose: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 
 def _percentage(_):

@@ -200,7 +200,7 @@ def _missing(found: Measurement, limit: float) -> float:
 
 
 def _left_over(left: ThinParts, moved: bool) -> tuple[str, ...]:
-    if not left.patches:
+    if not left.told:
         return ()
     if not moved:
         return (
