@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
+DRAFT = "ma_draft"  # there where a quick answer with few samples is shown; the exact one takes its place
 ASKED = "ma_asked"  # the options of the analysis as they were asked for; Automatic may have chosen others
 INSIDE = "ma_inside"  # how inside was distinguished from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
@@ -220,6 +221,7 @@ def _shows_parts(axis: MedialAxis, look: Look) -> bool:
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
+    result.pop(DRAFT, None)
     result[ANALYSIS], result[ASKED] = computation.key, asked_of(computation.asked)
     result[INSIDE] = str(computation.sides)
     result[MESH] = str(computation.mesh or "")

@@ -12,6 +12,12 @@ from ..core.machine.job import Job, Task
 from .translation import say
 
 _A_MOMENT = 0.1  # seconds
+# The stages that people know by another word than Building.
+_WORDS = {
+    "Sampling": ("Preparing", "Sharp edges", "Sampling", "Openings", "Faces", "Buried surface"),
+    "Cleaning": ("Inner complex", "Fringe", "Fire", "Wires", "Values", "Crisp places", "Limbs"),
+    "Drawing": ("Level", "Curves"),
+}
 
 _job: Job | None = None
 _product = ""
@@ -50,10 +56,19 @@ def show(context: bpy.types.Context) -> None:
     """Stage and percentage in the status bar and the panel."""
     if _job is not None and context.workspace is not None:
         share = f"{100 * _job.fraction:.0f} %"
-        what = f"{say(_product.title())}: {_job.name}, {say(_job.stage)}, {share}"
+        what = f"{say(_product.title())}: {_job.name}, {stage()}, {share}"
         hint = say("Esc: Cancel")
         context.workspace.status_text_set(f"{what}    {hint}")
     redraw()
+
+
+def stage() -> str:
+    """The stage of the computation in one of four words, after the number of the object where there are several."""
+    assert _job is not None
+    *number, stage = _job.stage.split(": ")
+    found = (word for word, stages in _WORDS.items() if stage in stages)
+    words = [name for name in number if name[0].isdigit()] + [next(found, "Building")]
+    return ": ".join(map(say, words))
 
 
 def redraw() -> None:

@@ -17,6 +17,7 @@ from .inward_faces import draw_inward_faces
 from .legend import draw_legend, draw_thickness_legend, light
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
+from .tab import draws_buttons
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -26,8 +27,9 @@ def draw_result(context, layout, result):
     _draw_legend(context, layout, result)
     if reason := why_outdated(context, result):
         layout.label(text=reason, icon_value=light(Light.LOOK.name))
-        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
-        copy_settings(context.scene.medial_axis, again)
+        if draws_buttons(layout):
+            again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+            copy_settings(context.scene.medial_axis, again)
     else:
         _draw_verdict(layout, result)
         _draw_pieces(layout, result)
@@ -154,6 +156,8 @@ def _draw_pieces(layout, result):
 
 def why_outdated(context, result):
     """Why the shown result no longer belongs to its source and settings, or an empty string."""
+    if axis_object.DRAFT in result:
+        return "A draft, of few samples"
     if has_changed(result, context.view_layer.depsgraph):
         return "The source has changed"
     if needs_analysis(result, context.scene.medial_axis):

@@ -24,7 +24,6 @@ from .selected_sources import has_faces, obstacle, sources
 from .show import draw_colours, draw_source, shows_colours
 from .shown import shown_frame, shown_thing
 from .tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
-from .translation import say
 from .wrapped_text import draw_wrapped
 
 _drawn = {}  # a sidebar -> what its panels were drawn for
@@ -186,12 +185,14 @@ def _draw_progress(context, layout, job):
     whole = layout.row(align=True)
     whole.scale_y = 1.5  # as the button that is here otherwise, so that nothing below moves
     if bpy.app.version >= (5, 0):  # after such a bar, 4.3 draws the next label as a full one
-        whole.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
+        whole.progress(
+            factor=job.fraction, text=f"{current_job.stage()}, {100 * job.fraction:.0f} %"
+        )
     else:
         row = whole.row(align=True)
         row.enabled = False
         bar = context.window_manager.medial_axis_progress
-        row.prop(bar, "percentage", text=say(job.stage), slider=True)
+        row.prop(bar, "percentage", text=current_job.stage(), slider=True)
     whole.operator("object.medial_axis_cancel", text="", icon="CANCEL")
 
 

@@ -65,7 +65,8 @@ DATA = {
     "Voxel Size",
 }
 # Parts of sentences that occur in a source as a single word, or inside of another sentence.
-PARTS = {"Preparing", "unknown", "arrays that contradict each other"}
+PARTS = {"unknown", "arrays that contradict each other"}
+PARTS |= {"Sampling", "Building", "Cleaning", "Drawing"}  # of a computation
 # How sentences are put together.
 FRAMES = {"'{}': {}"}
 # Properties that Blender's own helpers declare on our operators.
@@ -213,12 +214,11 @@ def drawn_nodes(tree):
 
 
 def compiled():
-    """Stages of a computation, and the errors that a user can meet; sources of C++."""
+    """The errors that a user can meet; sources of C++."""
     folder = Path(__file__).resolve().parents[2] / "native" / "medial"
     sources = "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.cpp")))
-    stages = set(re.findall(r'begin_stage\([\w.]+, "([^"]+)"', sources))
     errors = map(said, re.findall(r"throw \w+Error\((.*?)\);\n", sources, re.DOTALL))
-    return stages | {text for text in errors if text.startswith(MET)} | PLACES
+    return {text for text in errors if text.startswith(MET)} | PLACES
 
 
 def said(expression):

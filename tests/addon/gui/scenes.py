@@ -258,7 +258,7 @@ def scene_compute_drag_undo():
     look("dragged")
     dragged = facets()
     theta = bpy.context.scene.medial_axis.theta
-    assert theta > 0.8, f"theta is {theta}: the slider was missed"
+    assert theta > 0.75, f"theta is {theta}: the slider was missed"
     assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] == theta
     assert dragged != adjusted and analyses() == before
 
@@ -274,6 +274,36 @@ def scene_compute_drag_undo():
     assert facets() == dragged
     look("redone")
     assert analyses() == before
+
+
+def scene_draft():
+    """The first click shows a draft; Escape keeps it, then the exact axis takes its place, a step of undo each."""
+    monkey()
+    yield from open_tab()
+    with held(addon("core.axis.compute"), "extract", 4_000):
+        yield from click(*at(COMPUTE))
+        yield medial_objects
+        yield patience(1.0)
+        look("draft")
+        assert job() is not None and medial_objects()[0]["ma_draft"]
+        yield from key("Escape")
+        yield no_job
+    assert "draft stays" in bpy.context.scene.medial_axis.note
+    few = facets()
+    yield 0.5
+    look("kept")
+    yield from key("ctrl+z")
+    assert medial_objects() == []
+    yield from key("ctrl+shift+z")
+    assert facets() == few
+    yield from click(*at(COMPUTE))
+    yield job_exists
+    yield no_job
+    yield 0.5
+    look("exact")
+    assert facets() > few and "ma_draft" not in medial_objects()[0]
+    yield from key("ctrl+z")
+    assert facets() == few and medial_objects()[0]["ma_draft"]
 
 
 def scene_sliders_with_escape():
@@ -585,11 +615,13 @@ def no_update():
 
 
 @contextlib.contextmanager
-def held(module, name):
-    """A function of a module that waits until its progress is cancelled."""
+def held(module, name, most=0):
+    """A function of a module that waits until its progress is cancelled; not where so many samples are asked for."""
     kept = getattr(module, name)
 
-    def wait(samples, settings, progress=None, *_):
+    def wait(samples, settings, progress=None, *others):
+        if settings.samples <= most:
+            return kept(samples, settings, progress, *others)
         while not progress.cancelled:
             time.sleep(0.05)
         raise addon("core.errors").Cancelled("cancelled")
