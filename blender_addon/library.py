@@ -45,7 +45,6 @@ from .core.settings import (
     ANALYSED,
     BALL_OPTIONS,
     OPTIONS,
-    SAMPLING_OPTIONS,
     BallSettings,
     CoverMode,
     CoverShapes,
@@ -104,7 +103,7 @@ __all__ = [
 ]
 
 # These options select facets of an existing analysis.
-_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)]
+_THRESHOLDS = [name for name in OPTIONS if name not in ANALYSED]
 
 
 def compute(

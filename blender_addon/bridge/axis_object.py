@@ -13,6 +13,7 @@ from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.verdict import verdict
 from ..core.options import Choice
 from ..core.settings import (
+    ANALYSED,
     LOOKS,
     OPTIONS,
     Criteria,
@@ -46,6 +47,8 @@ if TYPE_CHECKING:
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
+DRAFT = "ma_draft"  # there where a quick answer with few samples is shown; the exact one takes its place
+ASKED = "ma_asked"  # the options of the analysis as they were asked for; Automatic may have chosen others
 INSIDE = "ma_inside"  # how inside was distinguished from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
@@ -164,6 +167,22 @@ def settings_of(result: bpy.types.Object) -> Settings:
     return Settings(**values)
 
 
+def asked_of(settings: Settings) -> dict[str, Any]:
+    """The options of the analysis that settings ask for, as a property of an object holds them."""
+    return {name: _plain(name, settings.with_side()) for name in ANALYSED}
+
+
+def asked_on(result: bpy.types.Object) -> dict[str, Any] | None:
+    """The same of a result; None where an earlier version made it."""
+    found = result.get(ASKED)
+    return found.to_dict() if hasattr(found, "to_dict") else None
+
+
+def _plain(name: str, settings: Settings) -> Any:
+    value = getattr(settings, name)
+    return value.name if isinstance(OPTIONS[name], Choice) else value
+
+
 def shown_curve(source: bpy.types.Object) -> Settings | None:
     """The settings of the curve of a source whose Detail was lowered; None where it has another axis, or none."""
     result = result_of(source)
@@ -202,7 +221,8 @@ def _shows_parts(axis: MedialAxis, look: Look) -> bool:
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
-    result[ANALYSIS] = computation.key
+    result.pop(DRAFT, None)
+    result[ANALYSIS], result[ASKED] = computation.key, asked_of(computation.asked)
     result[INSIDE] = str(computation.sides)
     result[MESH] = str(computation.mesh or "")
     result[TOPOLOGY] = computation.topology
@@ -218,9 +238,8 @@ def _remember_shown(
 ) -> None:
     """Stores the figures of the shown axis for the panel, and the settings and the look that made it."""
     axis = shown.axis
-    for name, option in OPTIONS.items():
-        value = getattr(settings, name)
-        result[f"ma_{name}"] = value.name if isinstance(option, Choice) else value
+    for name in OPTIONS:
+        result[f"ma_{name}"] = _plain(name, settings)
     for name in LOOKS:
         result[f"ma_{name}"] = getattr(look, name)
     result[UNBOUNDED] = axis.unbounded

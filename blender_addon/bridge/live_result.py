@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import MedialAxisError
-from .axis_object import look_of, result_of, write_result
+from .axis_object import DRAFT, look_of, result_of, write_result
 from .output_object import SECONDS, follow, is_gone, source_of
 from .read_object import read_object
 from .source_state import forget_answer, remember_state, state_of
@@ -110,6 +110,7 @@ def write_live(read: LiveSource, found: Computed, is_coarse: bool) -> None:
     if is_coarse:
         for name, value in kept.items():
             result[name] = value
+        result[DRAFT] = True
         forget_answer(result)
     else:
         remember_state(result, read.state)

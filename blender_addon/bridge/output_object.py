@@ -54,10 +54,22 @@ def is_gone(thing: bpy.types.Object | None) -> bool:
     return thing is None or not thing.users_collection
 
 
+def first_of_family(thing: bpy.types.Object) -> bpy.types.Object:
+    """The metaball that has the shape of its whole family; any other object is returned as it is.
+
+    A family are the metaballs whose names differ only in a number at the end, and its first has none.
+    """
+    if thing.type != "META" or not thing.name[-1].isdigit():
+        return thing
+    first = bpy.data.objects.get(thing.name.rpartition(".")[0])
+    return thing if is_gone(first) or first.type != "META" else first
+
+
 def output_of(
     source: bpy.types.Object, is_kind: Callable[[bpy.types.Object], bool]
 ) -> bpy.types.Object | None:
-    """The object of a kind that the next computation of this source updates."""
+    """The object of a kind that the next computation of this source, or of its family, updates."""
+    source = first_of_family(source)
     found = [
         thing
         for thing in bpy.data.objects

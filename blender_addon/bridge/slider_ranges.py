@@ -20,7 +20,6 @@ RANGES = {
     "erode": "ma_erode_range",
     "spike": "ma_spike_range",
     "limb": "ma_limb_range",
-    "rho": "ma_rho_range",
 }
 _GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
 
@@ -29,8 +28,7 @@ def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
     """Keep the ranges of an axis on its object, or forget older ones."""
     ranges = {} if axis.level is None else axis.level.ranges
     for name, key in RANGES.items():
-        found = axis.rho_range if name == "rho" else ranges.get(name)
-        if found is not None:
+        if found := ranges.get(name):
             result[key] = [*found.lengths, *found.shares]
         else:
             result.pop(key, None)

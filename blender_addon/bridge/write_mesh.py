@@ -62,6 +62,7 @@ def new_axis_mesh(
         _add_attributes(mesh, axis.level, level_attributes())
         if axis.structure is not None:
             _add_structure(mesh, axis.structure)
+            _shade_by_side(mesh, np.diff(axis.face_offsets))
     return mesh
 
 
@@ -94,6 +95,37 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
         mesh.use_auto_smooth, mesh.auto_smooth_angle = bool(sharp.any()), np.pi
     mesh.edges.foreach_set("use_edge_sharp", sharp)
     mesh.update()
+
+
+def _shade_by_side(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> None:
+    """Shade the smooth faces flat that the normal at a corner of theirs looks away from, which renders draw black.
+
+    Smoothness ends at a flat face, so the normals beside it change; each round makes more faces flat, or is the last.
+    """
+    while True:
+        smooth = _read(mesh.polygons, "use_smooth", np.bool_, 1)[:, 0]
+        own = _read(mesh.polygons, "normal", np.float32, 3).repeat(corners, axis=0)
+        away = np.einsum("ij,ij->i", own, _corner_normals(mesh)) <= 0.0
+        seen = np.bincount(np.arange(len(corners)).repeat(corners)[away], minlength=len(corners))
+        if not (smooth & (seen > 0)).any():
+            return
+        mesh.polygons.foreach_set("use_smooth", smooth & (seen == 0))
+        mesh.update()
+
+
+def _corner_normals(mesh: bpy.types.Mesh) -> NDArray[np.float32]:
+    if hasattr(mesh, "corner_normals"):  # from 4.1
+        return _read(mesh.corner_normals, "vector", np.float32, 3)
+    mesh.calc_normals_split()
+    found = _read(mesh.loops, "normal", np.float32, 3)
+    mesh.free_normals_split()
+    return found
+
+
+def _read(elements: Any, name: str, kind: type, width: int) -> NDArray[Any]:
+    values = np.empty(len(elements) * width, kind)
+    elements.foreach_get(name, values)
+    return values.reshape(-1, width)
 
 
 def new_mesh(

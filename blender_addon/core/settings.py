@@ -111,8 +111,6 @@ CACHE_SIZE = Integer(
 )
 MEGABYTE = 1 << 20  # bytes
 
-# These options need another analysis; the others only select facets of the analysis that exists.
-ANALYSED = ("side", "sides", "sampling")
 COARSE = 4_000  # samples of a quick answer
 # These options determine how faces are sampled; the choice of Sampling determines which of them matter.
 SAMPLING_OPTIONS = (
@@ -128,6 +126,8 @@ SAMPLING_OPTIONS = (
     "pairs",
     "seed",
 )
+# These options need another analysis; the others only select facets of the analysis that exists.
+ANALYSED = ("side", "sides", "sampling", *SAMPLING_OPTIONS)
 
 # Readers of the paper know these; the panel has them under Method.
 AS_IN_PAPER = ("wrap_opening", "epsilon", "budget", "keep_vertices", "pairs")
@@ -236,19 +236,22 @@ class Settings(Options):
     )
     theta: float = number(
         "Theta",
-        "Angle condition: keep a facet when the line between its two samples leaves "
-        "the surface at more than this angle. Larger values keep less",
+        "More leaves sheets between walls that face each other; less lets them run into shallow bumps, dents and "
+        "notches, too: a facet stays when the line between its two samples leaves the surface at more than this "
+        "angle. Grey where Rho keeps what it drops",
         default=math.pi / 8,
         limits=(0.0, math.pi / 2),
+        soft_maximum=math.pi / 4,
         unit="rad",
     )
     rho: float = number(
         "Rho",
-        "Ratio condition: keep a facet when its two samples are farther apart "
-        "than this many times the spacing of samples there. Larger values keep less",
+        "More leaves what is thick for how densely it is sampled; less keeps fine detail and fringes, too: a facet "
+        "stays when its two samples are farther apart than this many times the spacing of samples there. Grey where "
+        "Theta keeps what it drops",
         default=8.0,
         limits=(0.0, math.inf),
-        soft_maximum=64.0,
+        soft_maximum=16.0,
     )
     side: Side = choice(
         "Side",

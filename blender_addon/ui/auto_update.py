@@ -33,7 +33,7 @@ from ..bridge.source_state import differs, state_of
 from ..bridge.wires import wires_group
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
-from ..core.settings import ANALYSED, SAMPLING_OPTIONS
+from ..core.settings import ANALYSED
 from . import current_job
 from .preferences import memory_limit
 from .properties import needs_analysis, settings_from, shown_result
@@ -80,8 +80,8 @@ def wish(context, result):
 
     As with Compute Again the panel has the settings that need another analysis; the others stay those of the result.
     """
-    panel, names = settings_from(context.scene.medial_axis), (*ANALYSED, *SAMPLING_OPTIONS)
-    settings = replace(settings_of(result), **{name: getattr(panel, name) for name in names})
+    panel = settings_from(context.scene.medial_axis)
+    settings = replace(settings_of(result), **{name: getattr(panel, name) for name in ANALYSED})
     return state_of(source_of(result), context.view_layer.depsgraph), settings
 
 

@@ -13,11 +13,14 @@ from ..bridge.source_state import remember_state, state_of
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
 from . import current_job
+from .alone import Alone
 from .plain_words import told, warned
 from .select_made import select_made
 from .selected_sources import Source, obstacle, sources
 from .translation import say
 from .watched_job import CANCELLED, WatchedJob
+
+KEPT = "Cancelled, the draft stays"  # one row
 
 
 class FromSelection:
@@ -39,6 +42,8 @@ class ComputeOperator(FromSelection, WatchedJob):
     its progress; `write(thing, value, frame)` makes an object of the value that this function returned, or returns
     None when there is nothing to make. A subclass that does not compute from a shape has its own `read`; one that
     computes parts of a shape by themselves has its own `divided`, and `write_part` for these.
+    An operator may have `draft(shape, thing)`, which returns quick work whose product is shown, in a window, until the
+    exact one takes its place.
     `summary(value)` and `value.warnings` are for people.
 
     In a script the result is selected afterwards, as with Blender's own operators. In a window the source stays
@@ -46,6 +51,7 @@ class ComputeOperator(FromSelection, WatchedJob):
     """
 
     product = ""
+    alone = False  # a property, where the product fills the place of what it is made of
 
     select_result: bpy.props.BoolProperty(
         name="Select Result",
@@ -63,13 +69,20 @@ class ComputeOperator(FromSelection, WatchedJob):
             return self.execute(context)
         if not self.properties.is_property_set("select_result"):
             self.select_result = False
+        if isinstance(self, Alone) and not self.properties.is_property_set("alone"):
+            self.alone = True
         self._sources, tasks = self._read(context)
         if not tasks:
             return {"CANCELLED"}
-        self._gone = ""
+        self._gone, self._kept = "", ""
+        self._awaited = [s for s, task in zip(self._sources, tasks, strict=True) if task.draft]
         return self.watch(context, tasks, self.product)
 
     def meanwhile(self):
+        if self._awaited and (drafts := self._job.drafts):
+            for source, outcome in zip(self._awaited, drafts, strict=True):
+                self._show_draft(source, outcome)
+            self._awaited = []
         for source in self._sources:
             if source.find() is None and not self._gone:
                 self._gone = (
@@ -82,8 +95,8 @@ class ComputeOperator(FromSelection, WatchedJob):
         try:
             return self._write(context, self._sources, self._job.outcomes())
         except Cancelled:
-            self._tell(context, "WARNING", self._gone or CANCELLED)
-            return {"CANCELLED"}
+            self._tell(context, "WARNING", self._gone or self._kept or CANCELLED)
+            return {"FINISHED"} if self._kept else {"CANCELLED"}
 
     def sources(self, context):
         """The objects to compute from."""
@@ -96,6 +109,25 @@ class ComputeOperator(FromSelection, WatchedJob):
     def divided(self, shape):
         """The shapes to compute, by the names of the parts, and warnings; the whole shape has no name."""
         return {"": shape}, ()
+
+    def draft(self, _thing, _shape):
+        """Quick work whose product people see until the exact one takes its place; None where there is none."""
+        return None
+
+    def _show_draft(self, source, outcome):
+        """Write a draft; what is wrong with it, the exact computation tells."""
+        thing = source.find()
+        if outcome.error is not None or thing is None:
+            return
+        try:
+            made = self.write_draft(thing, outcome.value, source.frame)
+        except MedialAxisError:
+            return
+        if made is not None:
+            follow(made, thing, source.world, self.parent)
+            remember_state(made, source.state)
+            self._kept = KEPT
+            current_job.settle()
 
     def settle(self, made):
         """Called when all is written, with the objects that were made or updated."""
@@ -126,7 +158,8 @@ class ComputeOperator(FromSelection, WatchedJob):
             for warning in warnings:
                 self._tell(context, "WARNING", f"'{thing.name}': {warning}")
             for name, part in parts.items():
-                tasks.append(Task(f"{thing.name} {name}".rstrip(), self.work(part)))
+                draft = None if name else self.draft(thing, part)
+                tasks.append(Task(f"{thing.name} {name}".rstrip(), self.work(part), draft))
                 found.append(Source(thing.name, uid, shape.frame, world, state, name))
         return found, tasks
 
@@ -141,7 +174,7 @@ class ComputeOperator(FromSelection, WatchedJob):
             self._tell(context, "ERROR", f"'{name}': {_sentence(errors)}")
         made = [thing for thing in made if thing is not None]
         self.settle(made)
-        if self.select_result:
+        if self.select_result or self.alone:
             select_made(context, made)
         current_job.settle()
         return {"FINISHED"} if made else {"CANCELLED"}
@@ -155,13 +188,15 @@ class ComputeOperator(FromSelection, WatchedJob):
                 context, "WARNING", f"'{source.name}' is gone; its {self.product} was dropped"
             )
             return None
-        start = time.perf_counter()
+        start, before = time.perf_counter(), set(bpy.data.objects)
         write = partial(self.write_part, source.part) if source.part else self.write
         made = write(thing, outcome.value, source.frame)
         if made is not None and made != thing:
             follow(made, thing, source.world, self.parent)
         if made is not None:
             remember_state(made, source.state)
+        if self.alone and made is not None and made not in before and thing.visible_get():
+            thing.hide_set(True)
         seconds = outcome.value.seconds + time.perf_counter() - start
         for warning in outcome.value.warnings:
             text = f"'{source.name}': {warning}"

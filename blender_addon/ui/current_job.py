@@ -13,7 +13,6 @@ from .plain_words import doing
 from .translation import say
 
 _A_MOMENT = 0.1  # seconds
-
 _job: Job | None = None
 _product = ""
 

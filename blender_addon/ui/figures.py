@@ -5,18 +5,21 @@ import bpy
 
 from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
+from ..bridge.heat_map import shown_heat
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
+from ..bridge.thickness_object import HISTOGRAM, scale_on
 from ..bridge.wires import LONE_POINTS
 from ..core.axis.topology import betti_in_short
 from ..core.axis.verdict import Light, in_short
 from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
-from .legend import draw_legend, light
+from .legend import draw_legend, draw_thickness_legend, light
 from .plain_words import draw_told, warned
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
+from .tab import draws_buttons
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -25,8 +28,9 @@ def draw_result(context, layout, result):
     """Its verdict, its pieces and its radii, a row each; where its colours are shown, their legend has the radii."""
     if reason := why_outdated(context, result):
         layout.label(text=reason, icon_value=light(Light.LOOK.name))
-        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
-        copy_settings(context.scene.medial_axis, again)
+        if draws_buttons(layout):
+            again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+            copy_settings(context.scene.medial_axis, again)
     else:
         _draw_verdict(layout, result)
         _draw_pieces(layout, result)
@@ -156,6 +160,8 @@ def _draw_pieces(layout, result):
 
 def why_outdated(context, result):
     """Why the shown result no longer belongs to its source and settings, or an empty string."""
+    if axis_object.DRAFT in result:
+        return "A draft, of few samples"
     if has_changed(result, context.view_layer.depsgraph):
         return "The source has changed"
     if needs_analysis(result, context.scene.medial_axis):
@@ -164,16 +170,33 @@ def why_outdated(context, result):
 
 
 def _draw_legend(context, layout, thing):
-    """The range of its colours while they are seen; returns whether they are."""
+    """The range of the colours that are shown, while they are seen; returns whether they are."""
+    if not shows_colours(context.space_data):
+        return False
+    if axis_object.is_result(thing) and (carrier := shown_heat(thing)):
+        draw_thickness(context, layout, carrier)
+        return True
     found = colour_range(thing)
-    if found is None or not shows_colours(context.space_data):
+    if found is None:
         return False
     name, start, end = found
     if name == report_object.EPSILON.name:
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
-    else:
-        draw_legend(layout, length_text(context, start), length_text(context, end))
+        return True
+    low, high = length_text(context, end), length_text(context, start)
+    is_one = _range_text(context, *axis_object.radius_range(thing)) == high
+    draw_legend(layout, "" if is_one else low, high, turned=True)
     return True
+
+
+def draw_thickness(context, layout, carrier):
+    """The legend of a thickness, with the shares of the surface."""
+    scale = scale_on(carrier)
+    if scale is None:
+        return
+    low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
+    middle = limit if scale.limit > scale.low else ""
+    draw_thickness_legend(layout, scale, list(carrier[HISTOGRAM]), (low, middle, high))
 
 
 def _range_text(context, smallest, largest):

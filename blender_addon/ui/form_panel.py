@@ -4,9 +4,9 @@
 from ..bridge.slider_ranges import gap_on
 from ..core.settings import Form, applies_to_form
 from .properties import settings_from, shown_result
-from .ranged_sliders import row_of_slider
+from .ranged_sliders import draw_slider
 from .skeleton_operators import copy_all
-from .tab import draw_setting, draws_buttons
+from .tab import draws_buttons
 
 _SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
 
@@ -14,7 +14,7 @@ _SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
 def draw_form(context, layout, panel):
     """Form, and the slider that matters most for it; under the curve also the way to one of few branches."""
     layout.prop(panel, "form")
-    _draw_sliders(context, layout, panel, _that_apply(panel)[:1])
+    _draw_sliders(context, layout, _that_apply(panel)[:1])
     if panel.form == Form.CURVE.name and draws_buttons(layout):
         button = layout.operator("object.medial_axis_skeleton", icon="OUTLINER_OB_CURVE")
         copy_all(context, button)
@@ -22,17 +22,17 @@ def draw_form(context, layout, panel):
 
 def draw_more_of_form(context, layout, panel):
     """The other sliders of the form, and whether its places are crisp."""
-    _draw_sliders(context, layout, panel, _that_apply(panel)[1:])
+    _draw_sliders(context, layout, _that_apply(panel)[1:])
     row = layout.row()
     row.active = settings_from(panel).crisp_is_possible
     row.prop(panel, "crisp")
 
 
-def _draw_sliders(context, layout, panel, names):
+def _draw_sliders(context, layout, names):
     result = shown_result(context)
     for name in names:
         row = layout.row(align=True)
-        draw_setting(row, panel, row_of_slider(context, name, result), slider=True)
+        draw_slider(context, row, name, result)
         if name == "simplify" and gap_on(result) is not None:
             row.operator("object.medial_axis_simplify_to_gap", text="", icon="LIGHT")
 

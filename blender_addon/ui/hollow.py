@@ -9,6 +9,7 @@ from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, w
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
 from ..core.solid.hollow import hollow
+from .alone import Alone
 from .compute_operator import ComputeOperator
 from .properties import prop, settings_from, with_options
 
@@ -24,7 +25,7 @@ class DrainProperties:
 
 
 class OBJECT_OT_medial_axis_hollow(
-    ComputeOperator, HollowProperties, DrainProperties, bpy.types.Operator
+    ComputeOperator, Alone, HollowProperties, DrainProperties, bpy.types.Operator
 ):
     bl_idname = "object.medial_axis_hollow"
     bl_label = "Hollow"

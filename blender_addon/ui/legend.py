@@ -21,13 +21,13 @@ _LIGHTS = {
 _icons = None
 
 
-def draw_legend(layout, start, end):
-    """The scale of colours between two texts, what is blue and what is yellow."""
+def draw_legend(layout, start, end, turned=False):
+    """The scale of colours between two texts, from blue to yellow, or turned round."""
     ends = layout.split(factor=0.28)
     ends.label(text=start, translate=False)
     rest = ends.split(factor=0.6)
     scale = rest.row(align=True)
-    for step in range(_STEPS):
+    for step in range(_STEPS)[:: -1 if turned else 1]:
         scale.label(text="", icon_value=_icon(f"step {step}", step))
     end_of = rest.row()
     end_of.alignment = "RIGHT"

@@ -13,6 +13,7 @@ from ..bridge.mid_surface_object import (
 from ..core.samples.density import share_text
 from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
+from .alone import Alone
 from .preferences import memory_limit
 from .properties import settings_from, with_options
 from .wall_operator import WallOperator
@@ -23,7 +24,9 @@ class MidSurfaceProperties:
     """Which parts become sheets, and how fine these are."""
 
 
-class OBJECT_OT_medial_axis_unsolidify(WallOperator, MidSurfaceProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_unsolidify(
+    WallOperator, Alone, MidSurfaceProperties, bpy.types.Operator
+):
     bl_idname = "object.medial_axis_unsolidify"
     bl_label = "Unsolidify"
     bl_description = (

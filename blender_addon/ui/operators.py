@@ -6,7 +6,8 @@ from functools import partial
 import bpy
 
 from ..bridge.axes_of_parts import remove_other_parts, write_result_of_part
-from ..bridge.axis_object import check_writable, write_result
+from ..bridge.axis_object import DRAFT, check_writable, result_of, write_result
+from ..bridge.heat_map import show_axis
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.parts_objects import MOST
 from ..bridge.report_object import (
@@ -24,11 +25,13 @@ from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
 from ..core.settings import (
+    COARSE,
     DIVISION,
     LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
     Form,
+    SamplingMode,
     applies_to_form,
 )
 from ..core.solid.reconstruction import reconstruct
@@ -85,6 +88,20 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     def work(self, shape):
         return partial(compute_shown, shape, settings_from(self), look_from(self), memory_limit())
 
+    def draft(self, thing, shape):
+        """The first click on faces shows an axis of few samples, unless the exact one needs no more."""
+        few = self.sampling == SamplingMode.VERTICES.name and len(shape.points) <= COARSE
+        if few or not len(shape.triangles) or result_of(thing) is not None:
+            return None
+        coarse = settings_from(self).coarse
+        return partial(compute_shown, shape, coarse, look_from(self), memory_limit())
+
+    def write_draft(self, thing, found, frame):
+        made = self.write(thing, found, frame)
+        if made is not None:
+            made[DRAFT] = True
+        return made
+
     def write(self, thing, found, frame):
         if found.shown is None:
             return None
@@ -101,6 +118,9 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
             end_guide(bpy.context)
         if self.each_part:
             remove_other_parts(made)
+        if not self.select_result:  # in a window
+            for axis in made:
+                show_axis(axis)
 
     def summary(self, found):
         level = found.shown.axis.level

@@ -20,8 +20,7 @@ from .form_panel import draw_form
 from .guide import draw_guide
 from .plain_words import doing, draw_told
 from .presets import VIEW3D_PT_medial_axis_presets
-from .properties import copy_settings, shown_report, shown_result, shown_surface
-from .ranged_sliders import row_of_slider
+from .properties import copy_settings, note_of, shown_report, shown_result, shown_surface
 from .selected_sources import has_faces, obstacle, sources
 from .show import draw_colours, shows_colours
 from .shown import shown_frame, shown_thing
@@ -116,7 +115,7 @@ def _settle_when_changed(context):
     now = (
         active and active.name,
         obstacle(context),
-        context.scene.medial_axis.note,
+        *note_of(context),
         current_job.job() is None,
         space is not None and shows_colours(space),
     )
@@ -139,7 +138,7 @@ def _draw_settings(context, layout):
     for name, does_little in _thresholds(result).items():
         cell = both.row(align=True)
         cell.active = not does_little
-        cell.prop(settings, row_of_slider(context, name, result), text="", slider=True)
+        cell.prop(settings, name, text="", slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
@@ -178,7 +177,7 @@ def _draw_status(context, layout):
         copy_settings(context.scene.medial_axis, button)
     reason = "" if job is not None else obstacle(context)
     told = [reason] if reason and reason != native.problem() else []
-    told += context.scene.medial_axis.note.splitlines()
+    told += note_of(context)
     for sentence in told:
         draw_told(context, layout, sentence, "INFO")
     if not told and (job is not None or not draw_guide(layout)):

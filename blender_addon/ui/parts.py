@@ -9,6 +9,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
+from ..core.settings import Form
 from .plain_words import told
 from .properties import shown_result
 from .tab import InDetails, settings_column
@@ -108,7 +109,9 @@ class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         if _axis(context) is None:
-            layout.label(text="Only clean forms have parts", icon="INFO")
+            is_clean = shown_result(context)["ma_form"] == Form.CLEAN.name
+            text = "The axis has no sheets" if is_clean else "Only clean forms have parts"
+            layout.label(text=text, icon="INFO")
             return
         settings_column(layout).prop(context.scene.medial_axis, "by_part")
         layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")

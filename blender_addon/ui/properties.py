@@ -12,12 +12,15 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 
 from ..bridge.axis_object import (
     ANALYSIS,
+    asked_of,
+    asked_on,
     box_on,
     is_result,
     result_of,
     settings_of,
     update_result,
 )
+from ..bridge.heat_map import show_axis, shown_heat
 from ..bridge.output_object import WARNINGS, is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
@@ -198,6 +201,22 @@ def _of_source(source, is_kind, of_source):
     return source if is_kind(source) else of_source(source)
 
 
+def note_of(context) -> list:
+    """The lines of the note that concern the active object: it was active when they were told, or they name it."""
+    panel, name = context.scene.medial_axis, _name_of_active(context)
+    lines = panel.note.splitlines()
+    return lines if panel.whose == name else [line for line in lines if f"'{name}'" in line]
+
+
+def _remember_whose(panel, context):
+    panel.whose = _name_of_active(context)
+
+
+def _name_of_active(context):
+    active = getattr(context, "object", None)
+    return active.name if active is not None else ""
+
+
 def _refilter(panel, context):
     """Apply new thresholds to the shown result at once, as long as its analysis is kept."""
     panel.note = ""
@@ -214,7 +233,7 @@ def _refilter(panel, context):
 
 def _wanted(kept, panel):
     """The settings of the panel but for those that need another analysis."""
-    return replace(settings_from(panel), **{name: getattr(kept, name) for name in _ANALYSED})
+    return replace(settings_from(panel), **{name: getattr(kept, name) for name in ANALYSED})
 
 
 def _after_undo(_scene, _depsgraph=None):
@@ -267,7 +286,11 @@ def _show_refiltered(look, result, wanted, found, between_steps=False) -> str:
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
     update_result(result, shown, settings, topology, look, between_steps)
-    return ""
+    if shown_heat(result) is not None:
+        show_axis(result)
+    axis = shown.axis
+    is_seen = axis.facets or len(axis.edges)
+    return "" if is_seen else "Only the largest balls are left, points that views do not show"
 
 
 def _levels_stay(kept, wanted) -> bool:
@@ -277,19 +300,12 @@ def _levels_stay(kept, wanted) -> bool:
 
 
 def needs_analysis(result, panel) -> bool:
-    """Whether the panel has other settings than those of a result that only another analysis would apply.
-
-    A result remembers what Automatic chose, so Automatic agrees with everything.
-    """
-    kept, wanted = settings_of(result), settings_from(panel)
-    for name in _ANALYSED:
-        value = getattr(wanted, name)
-        if getattr(value, "name", "") != "AUTOMATIC" and value != getattr(kept, name):
-            return True
-    return False
+    """Whether the panel asks for another analysis than a result was asked for, whatever Automatic then chose."""
+    asked = asked_on(result)
+    return asked is not None and asked != asked_of(settings_from(panel))
 
 
-_ANALYSED = {name: OPTIONS[name] for name in (*ANALYSED, *SAMPLING_OPTIONS)}
+_ANALYSED = {name: OPTIONS[name] for name in ANALYSED}
 _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYSED} | LOOKS
 
 
@@ -299,7 +315,8 @@ _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYS
 class MedialAxisPanelSettings(bpy.types.PropertyGroup):
     """The settings of the sidebar panel; those that need no other analysis act on the result at once."""
 
-    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"}, update=_remember_whose)
+    whose: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 
 def _percentage(_):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The four sliders of Form, and Rho, in the panel as shares of what can go: files and keyframes keep the length.
+"""The four sliders of Form in the panel as shares of what can go, in percent: files and keyframes keep the length.
 
 The lengths over which a slider acts differ from model to model, so each result comes with a range for each slider.
-Without a result, or where the length is keyed or driven, the panel shows the length itself.
+Without one, the slider is grey. Where the length is keyed or driven, the panel shows the length itself.
 """
 
 import inspect
@@ -11,18 +11,18 @@ import bpy
 
 from ..bridge.slider_ranges import RANGES, range_on
 from ..core.settings import OPTIONS
+from .tab import draw_setting
 from .translation import IN_CONTEXT
 
 _ABOUT = {
-    "simplify": "The share of the sheets that is dropped, by area, the thinnest first: 0 drops none, 1 all that can "
-    "go; sheets go whole, and what joins the others stays as edges",
-    "erode": "The share of the sheets that recedes from the rims, by area: at 0 nothing does, at 1 all that can go",
-    "spike": "The share of the sheets that is dropped, by area, the narrowest parts first: 0 drops none, "
-    "1 all that can go",
-    "limb": "The share of the branches of loose edges that is dropped, by length, the shortest first: 0 drops none, "
-    "1 all that can go",
-    "rho": "The share of the facets that goes, of those that Theta does not keep, the lowest ratios first: 0 drops "
-    "none, 1 all of them",
+    "simplify": "The share of the sheets that is dropped, by area, the thinnest first; sheets go whole, and what joins "
+    "the others stays as edges. Grey before the first click, and where there are no sheets",
+    "erode": "The share of the sheets that recedes from the rims, by area. Grey before the first click, and where "
+    "there are no sheets",
+    "spike": "The share of the sheets that is dropped, by area, the narrowest parts first. Grey before the first "
+    "click, and where there are no sheets",
+    "limb": "The share of the branches of loose edges that is dropped, the shortest first; a long branch counts for "
+    "many short ones. Grey before the first click, and where there are no branches",
 }
 
 
@@ -37,30 +37,34 @@ def with_shares(shown_result):
     return decorate
 
 
-def row_of_slider(context, name, result):
-    """The property to draw for a slider: its share, or its length."""
-    if name not in RANGES or range_on(result, name) is None or _is_animated(context.scene, name):
-        return name
-    return f"{name}_share"
+def draw_slider(context, row, name, result):
+    """Draw a slider: its share, its length where that has keys, or the option itself where it has no shares."""
+    panel = context.scene.medial_axis
+    if name not in RANGES or _is_animated(context.scene, name):
+        draw_setting(row, panel, name, slider=True)
+        return
+    part = row.row(align=True)
+    part.enabled = range_on(result, name) is not None
+    draw_setting(part, panel, f"{name}_share", slider=True)
 
 
 def _share(name, shown_result):
     def get(panel):
         found = range_on(shown_result(bpy.context), name)
-        return 0.0 if found is None else found.share(getattr(panel, name))
+        return 0.0 if found is None else 100.0 * found.share(getattr(panel, name))
 
     def set_(panel, share):
         found = range_on(shown_result(bpy.context), name)
         if found is not None:
-            setattr(panel, name, min(found.length(share), OPTIONS[name].maximum))
+            setattr(panel, name, min(found.length(share / 100.0), OPTIONS[name].maximum))
 
     return bpy.props.FloatProperty(
         name=OPTIONS[name].label,
         description=_ABOUT[name],
-        subtype="FACTOR",
+        subtype="PERCENTAGE",
         min=0.0,
-        max=1.0,
-        precision=3,
+        max=100.0,
+        precision=1,
         options={"SKIP_SAVE"},
         get=get,
         set=set_,

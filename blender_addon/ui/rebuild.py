@@ -17,6 +17,7 @@ from ..bridge.rebuilt_object import (
 )
 from ..bridge.step_back import are_back, step_back
 from ..core.errors import MedialAxisError
+from .alone import Alone
 from .plain_words import told
 from .select_made import bring_into_view_layer
 from .tab import Closed, settings_column
@@ -30,7 +31,7 @@ def _axis(context):
     return find_axis(unrebuilt(context.active_object))
 
 
-class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
+class OBJECT_OT_medial_axis_rebuild(Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_rebuild"
     bl_label = "Rebuild Solid"
     bl_description = (
@@ -38,13 +39,6 @@ class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
         "from the object"
     )
     bl_options = {"REGISTER", "UNDO"}
-
-    alone: bpy.props.BoolProperty(
-        name="Alone",
-        description="Hide the object and its medial axis, which fill the same place, and select the solid",
-        default=False,
-        options={"SKIP_SAVE"},
-    )
 
     @classmethod
     def poll(cls, context):

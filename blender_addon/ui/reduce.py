@@ -16,6 +16,7 @@ from ..core.samples.shape import Shape
 from ..core.solid.reduce import reduce_axis, reduced_difference
 from ..core.solid.solid_difference import PointDifference
 from . import current_job
+from .alone import Alone
 from .compute_operator import ComputeOperator
 from .translation import say
 
@@ -45,7 +46,7 @@ def _axis(context):
     return find_axis(source_of(axis)) if axis is not None and is_reduced(axis) else axis
 
 
-class OBJECT_OT_medial_axis_reduce(ComputeOperator, bpy.types.Operator):
+class OBJECT_OT_medial_axis_reduce(ComputeOperator, Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_reduce"
     bl_label = "Reduce to Few Vertices"
     bl_description = (

@@ -9,7 +9,7 @@ from ..bridge.armature_object import is_armature
 from ..bridge.axis_object import is_result
 from ..bridge.balls_object import is_balls
 from ..bridge.mid_surface_object import is_mid_surface, is_thick
-from ..bridge.output_object import is_gone, source_of
+from ..bridge.output_object import first_of_family, is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.reduced_object import is_reduced
 from ..bridge.report_object import is_report
@@ -65,20 +65,8 @@ def sources(context) -> list:
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
         source = source_of(thing) if _is_made(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
-            found.append(_first_of_family(source))
+            found.append(first_of_family(source))
     return list(dict.fromkeys(found))
-
-
-def _first_of_family(thing):
-    """The metaball that has the shape of its whole family; any other object is returned as it is.
-
-    A family are the metaballs whose names differ only in a number at the end, and its first has none.
-    """
-    if thing.type != "META" or not thing.name[-1].isdigit():
-        return thing
-    first = bpy.data.objects.get(thing.name.rpartition(".")[0])
-    is_first = first is not None and first.type == "META" and not is_gone(first)
-    return first if is_first else thing
 
 
 def has_faces(thing) -> bool:

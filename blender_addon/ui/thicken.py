@@ -129,12 +129,12 @@ class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.O
 
     def summary(self, found):
         found = found.thicker
-        if not found.moves.any() and not found.left.patches:
+        if not found.moves.any() and not found.left.told:
             return f"Nothing had to move; minimum {found.after.minimum:.4g}"
         text = (
             f"The least thickness was {found.before.minimum:.4g} and is {found.after.minimum:.4g}"
         )
-        if found.left.patches:
+        if found.left.told:
             text += f"; {share_text(found.left.share)} of the area is still thinner than {self.limit:.4g}"
         return text
 

@@ -7,6 +7,7 @@ import bpy
 from mathutils import Vector
 
 from ..bridge.attributes import has_attribute
+from ..bridge.heat_map import show_thickness
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.thickness_object import (
     CURRENT,
@@ -69,6 +70,11 @@ class OBJECT_OT_medial_axis_thickness(
 
     def write(self, thing, found, frame):
         return write_thickness(thing, found, find_thin_parts(found, self.limit), frame)
+
+    def settle(self, made):
+        if not self.select_result:  # in a window
+            for carrier in made:
+                show_thickness(carrier)
 
     def summary(self, found):
         parts = find_thin_parts(found, self.limit)

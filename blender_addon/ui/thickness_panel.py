@@ -10,10 +10,10 @@ from ..bridge.thin_selection import patch_at, patches_of
 from ..core.axis.verdict import Light
 from ..core.samples.density import share_text
 from ..core.settings import THICKNESS_OPTIONS, Noise
-from .figures import length_text
-from .legend import draw_thickness_legend, light
+from .figures import draw_thickness, length_text
+from .legend import light
 from .plain_words import draw_told, warned
-from .properties import copy_settings
+from .properties import copy_settings, shown_result
 from .show import draw_colours, shows_colours
 from .tab import Closed, draws_buttons, settings_column
 from .thickness_limits import unit_note
@@ -81,10 +81,11 @@ def _draw_found(context, layout, carrier):
         _draw_patches(context, column, carrier)
         if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
             _draw_thicken(context, layout)
-    draw_colours(context, layout)
-    legend = layout.column()  # always there, so that no row below moves
-    legend.active = shows_colours(context.space_data)
-    _draw_legend(context, legend, carrier)
+    if shown_result(context) is None:  # else the panel of the result has both
+        draw_colours(context, layout)
+        legend = layout.column()  # always there, so that no row below moves
+        legend.active = shows_colours(context.space_data)
+        draw_thickness(context, legend, carrier)
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
@@ -125,15 +126,6 @@ def _draw_place(layout, text, which, icon):
     operator = "object.medial_axis_thin_place"
     button = layout.operator(operator, text=say(text), icon=icon, translate=False)
     button.which = which
-
-
-def _draw_legend(context, layout, carrier):
-    scale = of.scale_on(carrier)
-    if scale is None:
-        return
-    low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
-    middle = limit if scale.limit > scale.low else ""
-    draw_thickness_legend(layout, scale, list(carrier[of.HISTOGRAM]), (low, middle, high))
 
 
 def _area(context, area):

@@ -53,6 +53,20 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
     assert threads() == []
 
 
+def test_a_draft_comes_first_and_the_stages_have_four_words():
+    core, doing = addon("core.machine.job"), addon("ui.plain_words").doing
+    tasks = [core.Task("One", task().work, lambda _: "quick"), task(20_000, name="Two")]
+    job, words, fractions = core.Job(tasks), set(), []
+    while not job.done:
+        fractions.append(job.fraction)
+        words.add(doing(job.stage).removeprefix("1 of 2: ").removeprefix("2 of 2: "))
+        time.sleep(0.002)
+    assert words <= {"Sampling", "Building", "Cleaning", "Drawing"} and len(words) > 1
+    assert fractions == sorted(fractions) and fractions[-1] <= 1
+    assert [outcome.value for outcome in job.drafts] == ["quick"]
+    assert [outcome.value.points for outcome in job.outcomes()] == [60_000, 20_000]
+
+
 def test_job_gives_what_the_script_way_gives():
     one = task(3_000)
     job = addon("core.machine.job").Job([one])

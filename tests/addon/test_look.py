@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How results look: colours, wires, what they follow, and what a person sees of the panel."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -36,6 +38,67 @@ def colours_of(mesh):
 
 
 # --- colours
+
+
+@pytest.mark.parametrize("dense", [True, False], ids=["on the source", "on a copy"])
+def test_one_heat_map_is_seen_at_a_time(dense):
+    """Thin is warm in both, and the legend is that of the one that was asked for last."""
+    heat, of = addon("bridge.heat_map"), addon("bridge.thickness_object")
+    source = ellipsoid(segments=5 if dense else 2)
+    bpy.ops.object.medial_axis(select_result=False, samples=2_000)
+    axis = result_of(source)
+    radius, warm = attribute(axis.data, "ma_radius"), colours_of(axis.data)[:, 0]
+    assert warm[radius.argmin()] > 0.9 > 0.2 > warm[radius.argmax()]
+    bpy.ops.object.medial_axis_thickness(select_result=False, samples=2_000)
+    carrier = of.carrier_of(source)
+    assert (carrier == source) == dense
+    assert not axis.visible_get() and heat.shown_heat(axis) == carrier
+    bpy.ops.object.medial_axis(select_result=False, samples=2_000)
+    assert axis.visible_get() and heat.shown_heat(axis) is None
+    if dense:
+        assert not colours_of(source.data)[:, :3].std() and source.visible_get()
+    else:
+        assert not carrier.visible_get()
+    bpy.ops.object.medial_axis_thickness(select_result=False, samples=2_000)
+    bpy.context.scene.medial_axis.simplify = 0.01  # a slider shows what it changes
+    assert axis.visible_get() and heat.shown_heat(axis) is None
+    bpy.context.scene.medial_axis.property_unset("simplify")
+
+
+def test_a_constant_radius_is_one_figure(monkeypatch):
+    figures, drawn = addon("ui.figures"), []
+    bpy.ops.mesh.primitive_uv_sphere_add()
+    source = bpy.context.object
+    compute(**EVEN)
+    monkeypatch.setattr(
+        figures, "draw_legend", lambda _layout, *ends, **_turned: drawn.append(ends)
+    )
+    monkeypatch.setattr(figures, "shows_colours", lambda _space: True)
+    layout = SimpleNamespace(column=lambda: SimpleNamespace())
+    for radii in ((0.99999, 1.0), (0.4, 1.0)):
+        result = result_of(source)
+        result["ma_radius_min"], result["ma_radius_max"] = radii
+        figures._draw_legend(bpy.context, layout, result)
+    assert [bool(low) for low, _ in drawn] == [False, True] and drawn[0][1] == drawn[1][1]
+
+
+def test_a_note_is_told_with_its_object():
+    properties, panel = addon("ui.properties"), bpy.context.scene.medial_axis
+    flat, other = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), ellipsoid()
+    select(flat)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.medial_axis()
+    (note,) = properties.note_of(bpy.context)
+    assert note.startswith("'Flat'")
+    select(other)
+    assert not properties.note_of(bpy.context)
+    panel.note = "'Flat': told when another object is active\nIt was cancelled"
+    select(flat)
+    assert properties.note_of(bpy.context) == panel.note.splitlines()[:1]
+    select(other)
+    bpy.data.objects.remove(flat)
+    assert properties.note_of(bpy.context) == panel.note.splitlines()
+    panel.note = ""
 
 
 def test_result_is_coloured_by_radius():

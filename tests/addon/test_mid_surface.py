@@ -57,11 +57,11 @@ def test_a_sheet_is_coloured_by_thickness():
     plate()
     made = unsolidify()
 
-    assert made["ma_color_of"] == "ma_thickness" and made["ma_color_end"] == pytest.approx(
+    assert made["ma_color_of"] == "ma_thickness" and made["ma_color_start"] == pytest.approx(
         T, rel=5e-3
     )
     red = [each.color[0] for each in made.data.attributes["ma_color"].data]
-    np.testing.assert_allclose(red, 1.0, atol=0.1)  # one thickness has one colour
+    np.testing.assert_allclose(red, 0.05, atol=0.1)  # one thickness has one colour
     assert made.data.materials[0].name == "Medial Axis Thickness"
 
 

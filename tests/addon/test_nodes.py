@@ -201,8 +201,8 @@ def test_rebuilt_balls_have_the_colours_of_their_radii():
     addon("bridge.nodes.inputs").set_inputs(groups().add_modifier(thing, "REBUILD"), {"Voxel": 0.2})
     mesh, scale = evaluated(thing), addon("core.axis.colours").SCALE
     large = np.array([vertex.co.x < 5 for vertex in mesh.vertices])
-    np.testing.assert_allclose(colours(mesh)[large], [scale[-1][1]] * large.sum(), atol=0.01)
-    np.testing.assert_allclose(colours(mesh)[~large], [scale[0][1]] * (~large).sum(), atol=0.01)
+    np.testing.assert_allclose(colours(mesh)[large], [scale[0][1]] * large.sum(), atol=0.01)
+    np.testing.assert_allclose(colours(mesh)[~large], [scale[-1][1]] * (~large).sum(), atol=0.01)
     assert 0 < large.sum() < len(large)
 
 

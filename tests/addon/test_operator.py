@@ -2,6 +2,7 @@
 """Compute Medial Axis on real objects: what is made, what it is called, what stays as it was."""
 
 import re
+from types import MethodType, SimpleNamespace
 
 import bpy
 import numpy as np
@@ -507,3 +508,57 @@ def test_copy_of_a_source_gets_a_result_of_its_own():
     assert analyses() == before, "the same shape elsewhere is the same analysis"
     bpy.context.view_layer.update()
     assert tuple(result_of(copy).matrix_world.translation) == (4, 0, 0)
+
+
+def operator_of(**settings):
+    """The operator without a window, with the settings that it would have."""
+    core = addon("core.settings")
+    options = core.OPTIONS | core.LOOKS | core.DIVISION
+    values = {
+        name: getattr(option.default, "name", option.default) for name, option in options.items()
+    }
+    kind = addon("ui.operators").OBJECT_OT_medial_axis
+    own = {name: getattr(kind, name) for name in ("draft", "write", "write_draft", "_show_draft")}
+    thing = SimpleNamespace(**(values | settings))
+    for name, function in own.items():
+        setattr(thing, name, MethodType(function, thing))
+    return thing
+
+
+def drafted(source, **settings):
+    """The draft of the first click on a source; None where there is none."""
+    operator, shape = operator_of(**settings), read(source)
+    work = operator.draft(source, shape)
+    if work is None:
+        return None
+    found = addon("ui.selected_sources").Source(
+        source.name, None, shape.frame, source.matrix_world.copy()
+    )
+    outcome = addon("core.machine.job").run_task(addon("core.machine.job").Task("", work))
+    operator._show_draft(found, outcome)
+    assert operator._kept
+    return result_of(source)
+
+
+def read(source):
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return addon("bridge.read_object").read_object(source, depsgraph)
+
+
+def test_a_first_click_shows_a_draft_whose_place_the_exact_axis_takes():
+    figures = addon("ui.figures")
+    source = suzanne(levels=0)
+    draft = drafted(source)
+    assert draft["ma_draft"] and draft["ma_points"] < 5_000 and draft.parent == source
+    assert figures.why_outdated(bpy.context, draft) == "A draft, of few samples"
+    assert drafted(source) is None, "there is a result"
+    select(source)
+    assert bpy.ops.object.medial_axis() == {"FINISHED"}
+    exact = result_of(source)
+    assert exact == draft and "ma_draft" not in exact and exact["ma_points"] > 5_000
+    assert figures.why_outdated(bpy.context, exact) == ""
+
+
+def test_what_is_quick_has_no_draft():
+    assert drafted(ellipsoid(), sampling="VERTICES") is None
+    assert drafted(scan()) is None

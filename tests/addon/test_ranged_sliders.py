@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sliders of the panel run over what can go; what is stored, keyed and kept in files is the length."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -14,8 +16,12 @@ def panel():
 
 
 def shown_row(name):
-    sliders, properties = addon("ui.ranged_sliders"), addon("ui.properties")
-    return sliders.row_of_slider(bpy.context, name, properties.shown_result(bpy.context))
+    """The property that the slider shows, and whether it is there to be moved."""
+    drawn = SimpleNamespace(enabled=True, prop=lambda _panel, name, slider: shown.append(name))
+    drawn.row, shown = lambda align: drawn, []
+    result = addon("ui.properties").shown_result(bpy.context)
+    addon("ui.ranged_sliders").draw_slider(bpy.context, drawn, name, result)
+    return shown[0], drawn.enabled
 
 
 @pytest.fixture
@@ -32,23 +38,32 @@ def facets(thing):
 
 def test_half_of_a_slider_is_half_of_what_can_go(result):
     whole = facets(result)
-    panel().erode_share = 0.5
+    panel().erode_share = 50.0
     assert 0.2 * whole < facets(result) < 0.95 * whole
-    assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
+    assert panel().erode_share == pytest.approx(50.0, abs=0.1)
     assert result["ma_erode"] == pytest.approx(panel().erode) and 0 < panel().erode < 100
-    panel().erode_share = 1.0
-    assert facets(result) == 0 and panel().erode_share == 1.0
+    panel().erode_share = 100.0
+    assert facets(result) == 0 and panel().erode_share == 100.0
     panel().erode_share = 0.0
     assert facets(result) == whole and panel().erode == 0.0
 
 
-def test_without_a_range_the_length_is_shown(result):
-    assert shown_row("erode") == "erode_share" and shown_row("simplify") == "simplify_share"
-    assert shown_row("theta") == "theta"
+def test_without_a_range_the_slider_is_grey_and_has_the_same_unit(result):
+    assert shown_row("erode") == ("erode_share", True)
+    assert shown_row("theta") == ("theta", True) and shown_row("rho") == ("rho", True)
     result["ma_erode_range"] = [0.0, 1.0, 0.0]  # as no version writes it
-    assert shown_row("erode") == "erode"
+    assert shown_row("erode") == ("erode_share", False)
     select()
-    assert shown_row("simplify") == "simplify"
+    assert shown_row("simplify") == ("simplify_share", False) and panel().simplify_share == 0.0
+
+
+def test_a_slider_at_its_end_says_that_little_is_left(result):
+    panel().form = "CURVE"
+    assert panel().note == "" and len(result.data.edges) > 0
+    panel().limb_share = 100.0
+    assert not len(result.data.edges) and "points that views do not show" in panel().note
+    panel().limb_share = 0.0
+    assert panel().note == "" and len(result.data.edges) > 0
 
 
 def test_keys_are_of_the_length(result):
@@ -58,20 +73,20 @@ def test_keys_are_of_the_length(result):
         scene.keyframe_insert("medial_axis.simplify", frame=frame)
     scene.frame_set(11)
     assert panel().simplify == pytest.approx(2.0)
-    assert shown_row("simplify") == "simplify" and shown_row("erode") == "erode_share"
+    assert shown_row("simplify")[0] == "simplify" and shown_row("erode")[0] == "erode_share"
 
 
 def test_files_keep_lengths_and_ranges(result, tmp_path):
-    panel().erode_share = 0.5
+    panel().erode_share = 50.0
     length, name = panel().erode, result.name
     path = str(tmp_path / "kept.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     assert panel().erode == pytest.approx(length)
     select(bpy.data.objects[name])
-    assert shown_row("erode") == "erode_share"
-    assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
-    panel().erode_share = 0.25
+    assert shown_row("erode") == ("erode_share", True)
+    assert panel().erode_share == pytest.approx(50.0, abs=0.1)
+    panel().erode_share = 25.0
     assert "no longer in memory" in panel().note
 
 
@@ -108,22 +123,6 @@ def test_nothing_is_suggested_without_a_gap(result):
     assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
 
 
-def test_a_published_axis_has_the_range_of_rho_only(result):
+def test_a_published_axis_has_no_ranges(result):
     panel().form = "PUBLISHED"
-    kept = [key for key in result.keys() if key.endswith("_range")]  # noqa: SIM118
-    assert kept == ["ma_rho_range"]
-
-
-def test_rho_runs_from_all_facets_to_those_that_theta_keeps(result):
-    panel().form = "PUBLISHED"
-    assert shown_row("rho") == "rho_share" and result["ma_rho"] == panel().rho == 8.0
-    panel().rho_share = 0.0
-    whole = facets(result)
-    panel().rho_share = 1.0
-    least = facets(result)
-    assert least < 0.8 * whole  # else the test sees nothing
-    panel().rho_share = 0.5
-    assert facets(result) == pytest.approx(0.5 * (whole + least), rel=0.02)
-    assert result["ma_rho"] == pytest.approx(panel().rho) and 1.0 < panel().rho < 8.0
-    panel().criteria = "ANGLE"
-    assert shown_row("rho") == "rho"
+    assert not [key for key in result.keys() if key.endswith("_range")]  # noqa: SIM118

@@ -50,6 +50,24 @@ def test_a_small_mesh_with_radii_beside_its_axis(capfd):
     assert np.allclose(made.matrix_world, result_of(source).matrix_world)
 
 
+def test_by_a_button_it_takes_the_place_of_its_axis():
+    """Both lie in front, in the same place."""
+    source = ellipsoid()
+    compute(form="CLEAN", side="INNER")
+    axis = result_of(source)
+    made = reduce(source, 40)
+    assert axis.visible_get(), "a script hides nothing"
+    bpy.data.objects.remove(made)
+    select(source)
+    assert bpy.ops.object.medial_axis_reduce(vertices=40, alone=True) == {"FINISHED"}
+    made = reduced_of(source)
+    assert not axis.visible_get() and source.visible_get()
+    assert made.visible_get() and made.select_get() and bpy.context.object == made
+    axis.hide_set(False)
+    assert bpy.ops.object.medial_axis_reduce(vertices=30, alone=True) == {"FINISHED"}
+    assert axis.visible_get(), "it steps back once"
+
+
 def test_no_vertex_runs_away_from_the_axis():
     source = suzanne(levels=2)
     compute(form="CLEAN", side="INNER")

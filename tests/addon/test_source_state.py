@@ -178,19 +178,55 @@ def test_what_was_rebuilt_or_reduced_follows_as_the_axis_does():
     assert "ma_color" in reduced.data.attributes
 
 
-def test_settings_of_the_panel_that_need_another_analysis():
-    needs = addon("ui.properties").needs_analysis
+def other_values(option):
+    """Values of an option that are not its default."""
+    if hasattr(option, "items"):
+        return [member.name for member in option.items if member is not option.default]
+    if isinstance(option.default, bool):
+        return [not option.default]
+    return [option.minimum + (option.default - option.minimum) / 2 or option.soft_maximum / 4]
+
+
+def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for():
+    properties, settings = addon("ui.properties"), addon("core.settings")
     panel = bpy.context.scene.medial_axis
-    torus()
-    compute()
-    result = bpy.context.object
-    assert not needs(result, panel)
+    source = torus()
+
+    def answer():
+        select(source)
+        button = {name: getattr(panel, name) for name in settings.OPTIONS}
+        assert bpy.ops.object.medial_axis(**button) == {"FINISHED"}
+        return result_of(source)
+
+    panel.samples, panel.form, panel.crisp = 600, "PUBLISHED", False
+    result = answer()
+    for name in settings.ANALYSED:
+        for value in other_values(settings.OPTIONS[name]):
+            before = getattr(panel, name)
+            setattr(panel, name, type(before)(value))
+            if (name, value) == ("side", "INNER"):  # as Automatic
+                assert not properties.needs_analysis(result, panel)
+                continue
+            assert properties.needs_analysis(result, panel), name
+            if value != "NORMALS":  # it has none
+                assert not properties.needs_analysis(answer(), panel), name
+            setattr(panel, name, before)
+            result = answer()
     panel.theta = 0.9
-    assert not needs(result, panel)
-    panel.samples = 2_345
-    assert needs(result, panel)
-    panel.property_unset("samples")
-    panel.side = "OUTER"
-    assert needs(result, panel)
-    panel.property_unset("side")
-    panel.property_unset("theta")
+    assert not properties.needs_analysis(result, panel)
+    for name in ("samples", "form", "crisp", "theta"):
+        panel.property_unset(name)
+    del result["ma_asked"]  # as of an earlier version
+    assert not properties.needs_analysis(result, panel)
+
+
+def test_what_automatic_turns_on_by_itself_is_no_change_of_settings():
+    """Between walls that nearly touch, samples lie in pairs on flat faces, whatever was asked."""
+    properties, panel = addon("ui.properties"), bpy.context.scene.medial_axis
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=1.0, depth=0.01)
+    source = bpy.context.object
+    source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))
+    assert bpy.ops.object.medial_axis() == {"FINISHED"}
+    result = result_of(source)
+    assert result["ma_pairs"] and not panel.pairs
+    assert not properties.needs_analysis(result, panel)

@@ -115,3 +115,18 @@ def test_what_needs_no_blender_is_computed_before_an_axis_is_written(monkeypatch
         compute(form=form)
     bpy.context.scene.medial_axis.form = "CLEAN"
     bpy.context.scene.medial_axis.simplify = 1.0
+
+
+@pytest.mark.parametrize("kind", ["monkey", "text"])
+def test_no_corner_of_a_sheet_is_shaded_from_behind(kind):
+    """Renders draw such corners black."""
+    if kind == "monkey":
+        bpy.ops.mesh.primitive_monkey_add()
+    else:
+        bpy.ops.object.text_add()
+        bpy.context.object.data.body, bpy.context.object.data.extrude = "Medial", 0.1
+    assert bpy.ops.object.medial_axis() == {"FINISHED"}
+    mesh = bpy.context.object.data
+    found = addon("bridge.write_mesh")._corner_normals(mesh).reshape(len(mesh.polygons), -1, 3)
+    own = np.array([polygon.normal for polygon in mesh.polygons])
+    assert (np.einsum("ijk,ik->ij", found, own) >= 0.0).all()  # without area there is no side

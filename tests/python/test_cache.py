@@ -181,7 +181,7 @@ def values_of(found, path=""):
     }
 
 
-NO_RESULT = ("seconds", "analysis", "levels", "settings", "kept_facets")
+NO_RESULT = ("seconds", "analysis", "levels", "settings")
 
 
 def differences(first, second):

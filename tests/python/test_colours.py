@@ -71,8 +71,8 @@ def test_one_number_has_the_first_colour_and_nan_is_grey():
 
 def test_radii_that_hardly_differ_have_one_colour():
     start, end = colours_of.radius_range([0.99, 1.0, 1.01])
-    assert (start, end) == (0.505, 1.01)
-    assert colours_of.radius_range(np.array([0.25, 1.0])) == (0.25, 1.0)
+    assert (start, end) == (1.01, 0.505)
+    assert colours_of.radius_range(np.array([0.25, 1.0])) == (1.0, 0.25)
 
 
 def test_colours_of_thickness_have_a_hard_edge_at_the_limit():

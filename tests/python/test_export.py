@@ -293,7 +293,7 @@ def test_off_holds_polygons(axis, tmp_path):
     assert faces == polygons + [[2, *edge] for edge in axis.edges.tolist()]
 
 
-NO_ARRAYS = ("level", "structure", "rho_range")  # the first two have arrays of their own
+NO_ARRAYS = ("level", "structure")  # they have arrays of their own
 
 
 def test_npz_holds_everything(axis, tmp_path):

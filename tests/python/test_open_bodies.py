@@ -130,5 +130,7 @@ def test_faces_of_which_none_is_left_are_one_sentence(sampling):
     left_out = np.full(len(triangles), OF_SHEETS, np.uint8)
     shape = Shape(points, np.repeat(triangles[:, :1], 3, axis=1), reading=left_out)
     settings = Settings(sampling=sampling, samples=100)
-    with pytest.raises(DegenerateInputError, match="that repeat others, are sheets or have no three"):
+    with pytest.raises(
+        DegenerateInputError, match="that repeat others, are sheets or have no three"
+    ):
         compute_axis(shape, settings)

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The ranges of sliders: half of what can go goes at one half, and lengths and shares are one curve."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute, extract_axis
 from medial_axis.core.axis.directions import facet_areas
 from medial_axis.core.axis.slider_range import slider_range
-from medial_axis.core.settings import Criteria, Form, Mesh, Rule, SamplingMode, Settings, Side
+from medial_axis.core.settings import Form, Mesh, SamplingMode, Settings
 from support.meshes import box, icosphere
 
 
@@ -70,51 +68,13 @@ def test_sliders_of_a_box_act_from_end_to_end():
     assert len(curve.edges) == 0 or np.isinf(curve.level.limb).all()
 
 
-@pytest.mark.parametrize("rule", list(Rule))
-@pytest.mark.parametrize("criteria", [Criteria.ANGLE_OR_RATIO, Criteria.RATIO])
-@pytest.mark.parametrize("side", [Side.INNER, Side.OUTER, Side.BOTH])
-def test_rho_runs_over_the_facets_that_theta_does_not_keep(rule, criteria, side):
+def test_a_branch_counts_by_its_length_squared():
+    """Many bristles beside few limbs would else fill the whole slider."""
     points, triangles = icosphere(4)
-    wavy = np.asarray(points) * (1.0 + 0.2 * np.sin(4.0 * np.asarray(points)[:, :1]))
-    settings = Settings(form=Form.PUBLISHED, rule=rule, criteria=criteria, side=side)
-    computation = compute(wavy, triangles, settings)
-    found = computation.axis.rho_range
-    counts = [
-        selected(computation, replace(settings, rho=rho))
-        for rho in (0.0, *map(found.length, (0.25, 0.5, 1.0)))
-    ]
-    can_go = counts[0] - counts[3]
-    assert can_go > 0.1 * counts[0]
-    for share, count in zip((0.25, 0.5), counts[1:3], strict=True):
-        assert counts[0] - count == pytest.approx(share * can_go, abs=0.01 * can_go + 1)
-    assert counts[3] == selected(computation, replace(settings, rho=np.inf))
-
-
-def selected(computation, settings):
-    """The number of bounded facets that are selected."""
-    axis = extract_axis(computation, settings)
-    return axis.facets + axis.zero_area
-
-
-def test_rho_of_a_level_runs_over_the_facets_of_its_hierarchy():
-    """It leaves out facets without area, so the range is not quite that of the published form."""
-    points, triangles = icosphere(4)
-    wavy = np.asarray(points) * (1.0 + 0.2 * np.sin(4.0 * np.asarray(points)[:, :1]))
-    settings = Settings(crisp=False)
-    computation = compute(wavy, triangles, settings)
-    level, published = (
-        replace(computation.settings, form=form) for form in (Form.CLEAN, Form.PUBLISHED)
-    )
-    found = extract_axis(computation, level).rho_range
-    same = extract_axis(computation, published).rho_range
-    for share in (0.1, 0.5, 0.9):
-        assert found.length(share) == pytest.approx(same.length(share), rel=0.1)
-
-
-def test_rho_has_no_range_where_it_does_nothing():
-    points, triangles = box()
-    settings = Settings(criteria=Criteria.ANGLE, sampling=SamplingMode.SURFACE, samples=500)
-    assert compute(points, triangles, settings).axis.rho_range is None
+    points = points * (1.0 + 0.02 * np.random.default_rng(2).normal(size=(len(points), 1)))
+    points[:, 0] *= 3.0
+    found = compute(points, triangles, Settings(form=Form.CURVE)).axis.level.ranges["limb"]
+    assert found.share(0.05 * found.lengths[-1]) < 0.5
 
 
 def kept(**changed):

@@ -200,7 +200,7 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
 def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
     from medial_axis.core.axis.medial_axis import MedialAxis
 
-    own = {"level", "structure", "rho_range"}  # the first two of clean forms and curves
+    own = {"level", "structure"}  # of clean forms and curves
     count_of_work = {"rings"}
     found = set(members(MEDIAL.classes["MedialMesh"])) - count_of_work
     assert set(MedialAxis.__dataclass_fields__) - own == found

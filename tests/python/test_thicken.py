@@ -3,7 +3,6 @@
 
 import json
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,6 +24,7 @@ from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thicken import _left_over, thicken
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_in_part import subdivided
+from medial_axis.core.solid.thin_parts import Patch, ThinParts
 from support import thin_solids, topology
 from support.meshes import read, write_off
 from support.thick_meshes import block, ellipsoid, joined, shell
@@ -176,9 +176,11 @@ def test_faces_never_pass_through_each_other():
     ],
 )
 def test_the_reason_why_something_is_still_thin_is_said(moved, met, reason):
-    left = SimpleNamespace(patches=[SimpleNamespace(minimum=0.02)], share=0.5)
+    patch = Patch((0.0, 0.0, 0.0), 1.0, 0.02, 0.02)
+    left = ThinParts(0.04, (patch,), np.zeros(1, np.int32), np.zeros(1, np.int32), 1.0, 0.5)
     (said,) = _left_over(left, moved, met)
     assert reason in said
+    assert not _left_over(replace(left, share=0.0009), moved, met)  # it would read as 0.0 %
 
 
 def test_walls_of_a_wide_slot_get_the_limit():

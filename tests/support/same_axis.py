@@ -21,5 +21,5 @@ def same_axis(a: Any, b: Any) -> bool:
         np.array_equal(getattr(one, name), getattr(other, name))
         for one, other in pairs
         for name in one.__dataclass_fields__
-        if name not in ("level", "structure", "crumb", "ranges", "rho_range")
+        if name not in ("level", "structure", "crumb", "ranges")
     )

@@ -79,9 +79,9 @@ def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
         mean = tree.node("GeometryNodeFieldOnDomain", mean, data_type="FLOAT", domain=domain)
     mesh = _stored(tree, mesh, mean)
     least, most = _range_of_radii(tree)
-    start = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
-    above = tree.math("SUBTRACT", tree.attribute(RADIUS.name), start)
-    return stored_colour(tree, mesh, tree.math("DIVIDE", above, tree.math("SUBTRACT", most, start)))
+    end = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
+    below = tree.math("SUBTRACT", most, tree.attribute(RADIUS.name))
+    return stored_colour(tree, mesh, tree.math("DIVIDE", below, tree.math("SUBTRACT", most, end)))
 
 
 def _stored(tree: Tree, mesh: NodeSocket, radius: NodeSocket) -> NodeSocket:

@@ -55,10 +55,11 @@ def part_colours(parts: ArrayLike) -> NDArray[np.float32]:
 def radius_range(radii: Sequence[float] | NDArray) -> tuple[float, float]:
     """Return (start, end) of the colour scale for radii: all of them, but at least half of the largest radius.
 
-    So an axis whose radii hardly differ, as in a tube, has one colour and does not show the noise of its samples.
+    So an axis whose radii hardly differ, as in a tube, has one colour and does not show the noise of its samples. It
+    starts at the largest, because thin places are warm here as in pictures of thickness.
     """
     largest = float(np.max(radii))
-    return min(float(np.min(radii)), largest / 2), largest
+    return largest, min(float(np.min(radii)), largest / 2)
 
 
 def _shares(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:

@@ -44,6 +44,8 @@ class Computation(OfChosenSamples):
     axis : MedialAxis
     settings : Settings
         `side`, `sides` and `sampling` are never AUTOMATIC here, and `form` is what the axis has.
+    asked : Settings
+        The settings that were given.
     chosen : ChosenSamples
         The analysed samples, the reasons for them, their density, and the decision between inside and outside.
     warnings : tuple of str
@@ -62,6 +64,7 @@ class Computation(OfChosenSamples):
 
     axis: MedialAxis
     settings: Settings
+    asked: Settings
     chosen: ChosenSamples
     warnings: tuple[str, ...]
     topology: str
@@ -131,7 +134,7 @@ def compute_axis(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    settings = settings.with_side()
+    asked, settings = settings, settings.with_side()
     rough = ""
     if relaxed:
         shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
@@ -156,6 +159,7 @@ def compute_axis(
     return Computation(
         axis=axis,
         settings=settings,
+        asked=asked,
         chosen=chosen,
         warnings=(*([rough] if rough else []), *axis_warnings(shape, settings, chosen, axis)),
         topology=topology_sentence(axis, wanted, chosen.samples),

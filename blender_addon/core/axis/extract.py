@@ -12,7 +12,6 @@ from ..machine import native
 from ..settings import Form, Settings
 from .levels import extract_level
 from .medial_axis import MedialAxis
-from .rho_range import rho_range
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
@@ -50,7 +49,6 @@ def extract(
     """
     if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())
-        axis = replace(axis, rho_range=rho_range(samples, settings, None))
     else:
         axis = extract_level(samples, settings, progress, relaxed)
     if samples.offset > 0.0:

@@ -20,7 +20,6 @@ from .crumbs import crumb_sizes
 from .detail import with_detail
 from .gap import gap_of
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
-from .rho_range import rho_range
 from .slider_range import ranges_of, shown_areas
 from .smooth_curve import smooth_curve
 from .structure import structure_of
@@ -105,7 +104,6 @@ def extract_level(
             gap=gap,
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
-        rho_range=rho_range(samples, settings, hierarchy),
     )
     if settings.form is not Form.CURVE:
         return axis

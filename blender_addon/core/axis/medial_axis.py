@@ -118,8 +118,6 @@ class MedialAxis:
         None: the axis is as published.
     structure : Structure or None
         Sheets, seams, rims, junctions and corners; only of levels, and None where they are not known.
-    rho_range : SliderRange or None
-        The range of Rho at the other thresholds; None where Rho does nothing, or where the range is not known.
     """
 
     vertices: NDArray[np.float64]
@@ -135,7 +133,6 @@ class MedialAxis:
     edges: NDArray[np.int32] = field(default_factory=no_edges)
     level: LevelValues | None = None
     structure: Structure | None = None
-    rho_range: SliderRange | None = None
 
     def moved(self, by: NDArray[np.float64]) -> MedialAxis:
         """The axis, moved; the same bytes where it stays."""

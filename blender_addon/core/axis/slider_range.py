@@ -3,7 +3,7 @@
 
 Simplify drops whole sheets, Trim Rims and Remove Spikes facets, and Shortest Limb edges, each at its own length. On
 one model all of them go below 3 % of the diagonal, on another nothing does. A slider that runs over shares acts from
-end to end on both. Rho is a ratio and no length; on most models it selects facets between 1.5 and 16 only.
+end to end on both.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class SliderRange:
     Parameters
     ----------
     lengths, shares : tuple of k float
-        Both rise; the lengths are in percent of the diagonal. Those of Rho are ratios.
+        Both rise; the lengths are in percent of the diagonal.
     """
 
     lengths: tuple[float, ...]
@@ -85,8 +85,8 @@ def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
 def ranges_of(hierarchy: Any, area: NDArray[np.float64]) -> dict[str, SliderRange]:
     """Return the ranges of the four sliders, by the names of the settings; what takes nothing away has none.
 
-    Sheets and their facets count by their area. Wires count by their length, on the level without sheets, so that no
-    slider changes the range of another one.
+    Sheets and their facets count by their area. A branch of wires counts by its length squared, for there are many
+    more bristles than limbs; and on the level without sheets, so that no slider changes the range of another one.
 
     Parameters
     ----------
@@ -95,13 +95,13 @@ def ranges_of(hierarchy: Any, area: NDArray[np.float64]) -> dict[str, SliderRang
         As of `shown_areas`.
     """
     vertices, limb = hierarchy.vertices, hierarchy.edge_limb
-    alone = np.flatnonzero(limb > 0.0)
+    alone = np.flatnonzero((limb > 0.0) & np.isfinite(limb))
     ends = vertices[hierarchy.edges[alone]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     found = {
         "simplify": slider_range(100 * hierarchy.facet_sheet, area),
         "erode": slider_range(100 * hierarchy.facet_erosion, area),
         "spike": slider_range(100 * hierarchy.facet_spike, area),
-        "limb": slider_range(100 * limb[alone], length),
+        "limb": slider_range(100 * limb[alone], length * limb[alone]),
     }
     return {name: one for name, one in found.items() if one is not None}

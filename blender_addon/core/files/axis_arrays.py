@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
-_OTHERS = ("level", "structure", "rho_range")
+_OTHERS = ("level", "structure")
 NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name not in _OTHERS)
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti", "place")
 # Only axes whose structure is known have these.

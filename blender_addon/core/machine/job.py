@@ -12,13 +12,19 @@ from typing import Any
 from ..errors import Cancelled, MedialAxisError, out_of_memory
 from .progress import Progress
 
+_DRAFT = 0.15  # of the work of a task
+
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """A task is work on one shape; `work` is called with a `Progress` or None, and `name` is for messages."""
+    """A task is work on one shape; `work` is called with a `Progress` or None, and `name` is for messages.
+
+    A `draft` is work whose quick answer comes before that of all tasks, where people watch the job.
+    """
 
     name: str
     work: Callable[[Progress | None], Any]
+    draft: Callable[[Progress | None], Any] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +48,13 @@ def run_task(task: Task, progress: Progress | None = None) -> Outcome:
 
 
 class Job:
-    """Runs tasks one after the other in a thread, which ends with `outcomes`, `stop` or the interpreter."""
+    """Runs drafts and then tasks one after the other in a thread, which ends with `outcomes`, `stop` or the
+    interpreter."""
 
     def __init__(self, tasks: Sequence[Task]) -> None:
+        drafts = [Task(task.name, task.draft) for task in tasks if task.draft is not None]
+        self._drafts = len(drafts)
+        tasks = (*drafts, *tasks)
         self.names = tuple(task.name for task in tasks)
         self._progress = tuple(Progress() for _ in tasks)
         self._current = 0
@@ -74,7 +84,10 @@ class Job:
     @property
     def fraction(self) -> float:
         """Return the share of all tasks that is done, 0 to 1."""
-        return (self._current + self._progress[self._current].fraction) / len(self._progress)
+        done = self._current + self._progress[self._current].fraction
+        saved = 1.0 - _DRAFT  # which a draft is shorter than a task
+        done -= saved * min(done, self._drafts)
+        return done / (len(self._progress) - saved * self._drafts)
 
     @property
     def name(self) -> str:
@@ -84,8 +97,8 @@ class Job:
     @property
     def stage(self) -> str:
         """Return the stage, such as 'Poles', or '1 of 2: Poles' if there are several tasks."""
-        count = len(self.names)
-        which = f"{self._current + 1} of {count}: " if count > 1 else ""
+        count, number = len(self.names) - self._drafts, self._current + 1 - self._drafts
+        which = f"{number} of {count}: " if count > 1 and number > 0 else ""
         return which + (self._progress[self._current].stage or "Preparing")
 
     @property
@@ -111,6 +124,12 @@ class Job:
         self.cancel()
         self._join()
 
+    @property
+    def drafts(self) -> list[Outcome]:
+        """Return the outcomes of the drafts, in order; none before all of them are there."""
+        found = self._outcomes[: self._drafts]
+        return found if len(found) == self._drafts else []
+
     def outcomes(self) -> list[Outcome]:
         """Wait for the thread, and return the outcome of each task, in order.
 
@@ -123,7 +142,7 @@ class Job:
             raise self._failure
         if self._cancelled:
             raise Cancelled("The computation was cancelled; nothing was changed")
-        return self._outcomes
+        return self._outcomes[self._drafts :]
 
     def _join(self) -> None:
         if self._thread.ident is not None:  # the thread was started

@@ -113,8 +113,6 @@ class AnalysedSamples:
         The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs.
     offset : float
         How far outside of the surface that is meant the samples lie; radii are less by this.
-    kept_facets : dict of two arrays
-        Rho and Theta of some facets of each side, which tell the range of Rho (`core/axis/rho_range.py`).
     """
 
     points: NDArray[np.float64]
@@ -136,9 +134,6 @@ class AnalysedSamples:
     apart: NDArray[np.float64] | None = None
     partners: NDArray[np.int32] | None = None
     offset: float = 0.0
-    kept_facets: dict[Any, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(
-        default_factory=dict
-    )
 
     @property
     def walls_to_show(self) -> Walls | None:

@@ -202,7 +202,7 @@ def _missing(found: Measurement, limit: float) -> float:
 
 def _left_over(left: ThinParts, moved: bool, met: bool) -> tuple[str, ...]:
     """Say why something is still thin: other walls were in the way, a step helps nothing, or vertices are missing."""
-    if not left.patches:
+    if not left.told:
         return ()
     share, least = percent(left.share), left.patches[0].minimum
     if met:

@@ -66,6 +66,11 @@ class ThinParts:
     area: float
     share: float
 
+    @property
+    def told(self) -> bool:
+        """Whether people are told: not of less than 0.1 % of the surface, which is that of slivers."""
+        return self.share >= 1e-3
+
 
 def find_thin_parts(
     found: Measurement, limit: float, minimum_patch: float | None = None

@@ -27,6 +27,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "first_glance_light": True,
     "first_glance_large": True,
     "compute_drag_undo": True,
+    "draft": True,
     "sliders_with_escape": True,
     "auto_update": True,
     "steady_panels": True,

@@ -260,7 +260,7 @@ def scene_compute_drag_undo():
     look("dragged")
     dragged = facets()
     theta = bpy.context.scene.medial_axis.theta
-    assert theta > 0.8, f"theta is {theta}: the slider was missed"
+    assert theta > 0.75, f"theta is {theta}: the slider was missed"
     assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] == theta
     assert dragged != adjusted and analyses() == before
 
@@ -278,6 +278,36 @@ def scene_compute_drag_undo():
     assert analyses() == before
 
 
+def scene_draft():
+    """The first click shows a draft; Escape keeps it, then the exact axis takes its place, a step of undo each."""
+    monkey()
+    yield from open_tab()
+    with held(addon("core.axis.compute"), "extract", 4_000):
+        yield from click(*at(COMPUTE))
+        yield medial_objects
+        yield patience(1.0)
+        look("draft")
+        assert job() is not None and medial_objects()[0]["ma_draft"]
+        yield from key("Escape")
+        yield no_job
+    assert "draft stays" in bpy.context.scene.medial_axis.note
+    few = facets()
+    yield 0.5
+    look("kept")
+    yield from key("ctrl+z")
+    assert medial_objects() == []
+    yield from key("ctrl+shift+z")
+    assert facets() == few
+    yield from click(*at(COMPUTE))
+    yield job_exists
+    yield no_job
+    yield 0.5
+    look("exact")
+    assert facets() > few and "ma_draft" not in medial_objects()[0]
+    yield from key("ctrl+z")
+    assert facets() == few and medial_objects()[0]["ma_draft"]
+
+
 def scene_sliders_with_escape():
     """Simplify runs over what can go; of a large result it acts in the thread, and Escape leaves the old one."""
     monkey()
@@ -291,7 +321,7 @@ def scene_sliders_with_escape():
     yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
     yield patience(0.7)
     look("dragged")
-    assert 0.0 < panel.simplify_share < 1.0, f"the slider was missed: {panel.simplify_share}"
+    assert 0.0 < panel.simplify_share < 100.0, f"the slider was missed: {panel.simplify_share}"
     assert bpy.data.objects[name]["ma_simplify"] == panel.simplify > 0.0
     assert facets() < whole
     yield from key("ctrl+z")
@@ -316,7 +346,7 @@ def scene_sliders_with_escape():
     yield no_update
     assert facets() == whole
     with held(addon("core.axis.compute"), "extract"):
-        bpy.context.scene.medial_axis.erode_share = 0.5
+        bpy.context.scene.medial_axis.erode_share = 50.0
         yield job_exists
         yield 0.5
         look("in-the-thread")
@@ -587,11 +617,13 @@ def no_update():
 
 
 @contextlib.contextmanager
-def held(module, name):
-    """A function of a module that waits until its progress is cancelled."""
+def held(module, name, most=0):
+    """A function of a module that waits until its progress is cancelled; not where so many samples are asked for."""
     kept = getattr(module, name)
 
-    def wait(samples, settings, progress=None, *_):
+    def wait(samples, settings, progress=None, *others):
+        if settings.samples <= most:
+            return kept(samples, settings, progress, *others)
         while not progress.cancelled:
             time.sleep(0.05)
         raise addon("core.errors").Cancelled("cancelled")
