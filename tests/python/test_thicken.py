@@ -177,7 +177,8 @@ def test_faces_never_pass_through_each_other():
 )
 def test_the_reason_why_something_is_still_thin_is_said(moved, met, reason):
     patch = Patch((0.0, 0.0, 0.0), 1.0, 0.02, 0.02)
-    left = ThinParts(0.04, (patch,), np.zeros(1, np.int32), np.zeros(1, np.int32), 1.0, 0.5)
+    none = np.zeros(1, np.int32)
+    left = ThinParts(0.04, 0.02, (patch,), none, none, 1.0, 0.5)
     (said,) = _left_over(left, moved, met)
     assert reason in said
     assert not _left_over(replace(left, share=0.0009), moved, met)  # it would read as 0.0 %
