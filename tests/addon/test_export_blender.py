@@ -246,11 +246,12 @@ def test_path_beside_the_blend_file(result, tmp_path):
 
 
 def remembered(thing):
-    """The custom properties of an object; those of several numbers as lists."""
-    return {
-        name: value.to_list() if hasattr(value, "to_list") else value
-        for name, value in thing.items()
-    }
+    """The custom properties of an object; those of several values as lists and dictionaries."""
+    found = {}
+    for name, value in thing.items():
+        read = getattr(value, "to_list", None) or getattr(value, "to_dict", None)
+        found[name] = value if read is None else read()
+    return found
 
 
 def test_export_does_not_change_the_result(result, tmp_path):

@@ -592,8 +592,12 @@ def world_box(thing):
     bpy.context.view_layer.update()
     evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
-    shown = mesh if len(mesh.vertices) else thing.data  # balls are instances at their centres
-    places = positions(shown) @ np.array(evaluated.matrix_world)[:3, :3].T
+    # Balls are instances at their centres, and a skeleton of a single point has no tube.
+    if thing.type == "CURVE" and not len(mesh.vertices):
+        places = np.array([point.co[:3] for line in thing.data.splines for point in line.points])
+    else:
+        places = positions(mesh if len(mesh.vertices) else thing.data)
+    places = places @ np.array(evaluated.matrix_world)[:3, :3].T
     places = places + np.array(evaluated.matrix_world)[:3, 3]
     evaluated.to_mesh_clear()
     return np.array([places.min(axis=0), places.max(axis=0)])
