@@ -352,7 +352,7 @@ class _Filled:
         if not len(sources):
             return np.zeros(len(place), np.intp), np.full(len(place), np.inf)
         low = places.min(axis=0)
-        apart = 2.0 * float(np.linalg.norm(places.max(axis=0) - low))
+        apart = 2.0 * float(np.linalg.norm(np.ptp(places, axis=0)[None], axis=1)[0])
         points = (places - low)[place]
         points[:, 0] += apart * np.unique(sheet, return_inverse=True)[1].ravel()
         with native.own_errors() as module:
