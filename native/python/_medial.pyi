@@ -493,9 +493,7 @@ class Hierarchy:
         ------
         InvalidInputError, Cancelled
         """
-    def selecting(
-        self, theta: float, rho: float, *, progress: Progress | None = None
-    ) -> Hierarchy:
+    def selecting(self, theta: float, rho: float, *, progress: Progress | None = None) -> Hierarchy:
         """The hierarchy of the same even mesh at other thresholds of MEDIAL, where these are higher; what lower ones
         would select is not in the mesh.
 

@@ -237,7 +237,7 @@ class Shrinking {
 
   // Returns how much a ball grows when its foot moves away: one close to the place makes more of it
   // than one on the far side.
-  double gain(const Place& x, const InnerBall& ball) const {
+  static double gain(const Place& x, const InnerBall& ball) {
     const double depth = dot(x.point - ball.foot.point, x.normal);
     return depth > 0 ? ball.radius / depth : 0;
   }

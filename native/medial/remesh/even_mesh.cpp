@@ -51,10 +51,9 @@ class MovedStar {
 
   // Returns whether a sheet would fold at an edge of the triangles at which it does not yet.
   bool folds() const {
-    for (const Moved& one : star_) {
-      if (folds_across(one) || folds_at(one, one.next) || folds_at(one, one.last)) return true;
-    }
-    return false;
+    return std::any_of(star_.begin(), star_.end(), [&](const Moved& one) {
+      return folds_across(one) || folds_at(one, one.next) || folds_at(one, one.last);
+    });
   }
 
  private:
