@@ -582,9 +582,9 @@ MUTATIONS = (
         "closed chains have ends",
     ),
     Mutation(
-        "skeleton/even_sheets.cpp",
-        "h_.samples.nearest(place).distance",
-        "h_.samples.nearest(level_.exact[i]).distance",
+        "skeleton/even_level.cpp",
+        "moved ? HUGE_VAL : level_.radius[i]",
+        "moved ? level_.radius[i] : level_.radius[i]",
         "balls of moved vertices are those of the old places",
     ),
     Mutation(

@@ -123,8 +123,8 @@ MUTATIONS = (
     ),
     _bug(
         "axis/colours.py",
-        "return min(float(np.min(radii)), largest / 2), largest",
-        "return max(float(np.min(radii)), largest / 2), largest",
+        "return largest, min(float(np.min(radii)), largest / 2)",
+        "return largest, max(float(np.min(radii)), largest / 2)",
         "the colour scale cuts small radii off",
         "test_colours.py",
     ),
