@@ -25,7 +25,7 @@ import blender_demo
 import blender_scene
 
 PIXELS = (360, 300)
-SAMPLES = 16
+SAMPLES = 64
 COLUMNS = 5
 
 

@@ -51,7 +51,6 @@ RUN_BY = {
     "cmake --install": "python/test_consumer.py::test_installed_library",
     "pip install .": "python/test_wheel.py::test_command",
     "python3 tests/wrap_docs.py": "python/test_docs.py::test_the_docs_are_wrapped",
-    "python3 -m lab.race.rivals": "../lab/tests/test_race.py::test_the_commands_of_the_page",
     "python3 -m lab.race.judge": "../lab/tests/test_race.py::test_the_commands_of_the_page",
 }
 # How commands begin -> why no test runs them.

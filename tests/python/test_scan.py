@@ -209,7 +209,7 @@ CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 1.0, 0, 0, 0.0)
         ({"noise": 1.5, "mates": 1.6}, "TIGHT_COCONE", "the scans do not fit each other"),
         ({"mates": 1.6}, "TIGHT_COCONE", ""),
         ({"outliers": 20, "kept": 980}, "TIGHT_COCONE", "stood alone and were left out"),
-        ({"outliers": 20}, "TIGHT_COCONE", "which Prepare Automatic leaves out"),
+        ({"outliers": 20}, "TIGHT_COCONE", "which Denoise Automatic leaves out"),
         ({"border": 0.05}, "POLES", "bounds no solid"),
     ],
 )
