@@ -62,7 +62,7 @@ def draws_buttons(layout, count=1):
 
 def draw_setting(column, owner, name, **words):
     """A setting in such a column: a label that does not fit beside its value stands in it, or above it."""
-    prop = owner.bl_rna.properties[name]
+    prop = getattr(owner, "properties", owner).bl_rna.properties[name]  # those of an operator
     if len(prop.name) <= _FITS or prop.type == "BOOLEAN":
         column.prop(owner, name, **words)
     elif prop.type == "ENUM":
