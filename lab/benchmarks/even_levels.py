@@ -11,8 +11,8 @@ import time
 from dataclasses import replace
 
 import _module
+import even_meshes
 import numpy as np
-from even_meshes import MESHES, cells
 
 medial = _module.load()
 
@@ -46,16 +46,8 @@ def row(made: medial_axis.Computation, name: str, step: dict[str, float]) -> lis
     if not axis.facets:
         return [name, slider, "0", *[""] * 6, f"{seconds:.2f}"]
     output = crisp_measures.output_of(replace(made, axis=axis), np.eye(3))
-    return [name, slider, *cells(axis, output), f"{seconds:.2f}"]
-
-
-def main() -> None:
-    parser = _module.parser(__doc__)
-    present = [name for name in MESHES if (_module.DATA / name).is_file()]
-    parser.add_argument("--meshes", nargs="+", default=present)
-    options = parser.parse_args()
-    _module.tell(HEADER, (one for name in options.meshes for one in rows(name)), options.output)
+    return [name, slider, *even_meshes.cells(axis, output), f"{seconds:.2f}"]
 
 
 if __name__ == "__main__":
-    main()
+    even_meshes.main(__doc__, HEADER, rows)

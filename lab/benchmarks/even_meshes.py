@@ -11,6 +11,7 @@ the data folder.
 """
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 import _module
@@ -136,13 +137,14 @@ def paths(edges) -> list[list[int]]:
     return found
 
 
-def main() -> None:
-    parser = _module.parser(__doc__)
+def main(page: str | None, header: list[str], rows: Callable[[str], list[list[str]]]) -> None:
+    """Make a table with these rows for each mesh; `page` is the text of the help."""
+    parser = _module.parser(page)
     present = [name for name in MESHES if (_module.DATA / name).is_file()]
     parser.add_argument("--meshes", nargs="+", default=present)
     options = parser.parse_args()
-    _module.tell(HEADER, (row for name in options.meshes for row in rows(name)), options.output)
+    _module.tell(header, (row for name in options.meshes for row in rows(name)), options.output)
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, HEADER, rows)

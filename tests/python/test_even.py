@@ -256,3 +256,10 @@ def test_what_is_no_even_mesh_cannot_select_and_what_is_cannot_be_made_again(med
     for theta, rho in ((-0.1, 8.0), (1.0, float("nan"))):
         with pytest.raises(medial.InvalidInputError):
             even.selecting(theta, rho)
+
+
+@pytest.mark.parametrize("crisp", [True, False])
+def test_a_mesh_does_not_count_the_samples_and_faces_of_its_hierarchy(hand, crisp):
+    hierarchy, _ = hand
+    even = hierarchy.even(spacings=1.0, crisp=crisp)
+    assert 100 * len(even.vertices) < even.bytes < hierarchy.bytes / 5

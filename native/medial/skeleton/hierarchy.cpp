@@ -154,13 +154,18 @@ size_t Hierarchy::bytes() const {
   };
   const Parts& p = *parts_;
   const InnerComplex& c = p.complex;
-  return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
-                 c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, *p.row,
-                 p.outside, p.sine, p.rho, p.chosen, p.crisp.position, p.crisp.radius,
-                 p.crisp.place,
-                 p.on_crease) +
-         (c.dual.size() + c.cell.size()) * sizeof(float) +  // of `spikes`, known or not
-         p.samples->bytes() + p.spacing->size() * sizeof(double) +
+  const size_t own =
+      size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
+              c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, p.outside,
+              p.sine, p.rho, p.chosen, p.crisp.position, p.crisp.radius, p.crisp.place,
+              p.on_crease) +
+      (c.dual.size() + c.cell.size()) * sizeof(float);  // of `spikes`, known or not
+  if (p.even) {  // the samples and faces are those of the hierarchy that it was made of
+    const EvenBase& e = *p.even;
+    return own + size_of(e.vertices.target, e.vertices.held, e.vertices.is_end, e.exact,
+                         e.exact_radius, e.limb);
+  }
+  return own + size_of(*p.row, *p.spacing) + p.samples->bytes() +
          (p.faces ? p.faces->bytes() + p.on_faces->bytes() : 0);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
