@@ -65,7 +65,7 @@ def turned(profile, sides: int) -> str:
     a = 2 * np.pi * np.arange(sides) / sides
     points = [(r * np.cos(t), r * np.sin(t), z) for t in a for r, z in profile]
     n, m = len(profile), len(points)
-    corner = lambda i, j: (i * n + j % n) % m  # noqa: E731 - a formula
+    corner = lambda i, j: (i * n + j % n) % m
     ring = [(i, j) for i in range(sides) for j in range(n)]
     return off(
         points,
