@@ -26,7 +26,7 @@ from .console import ClosedPipeError, Console, open_streams
 from .core.batch.batch import Item, begin, failure, finish
 from .core.errors import Cancelled, DegenerateInputError, InvalidInputError, ReadError
 from .core.machine import native
-from .core.solid.measurement import UNKNOWN
+from .core.thickness.measurement import UNKNOWN
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN, UNMEASURED = range(7)
 CLOSED_PIPE = 128 + 13  # the exit code by which shells report that SIGPIPE ended a program

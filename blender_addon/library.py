@@ -22,6 +22,9 @@ from .core.axis import each_part
 from .core.axis.compute import Computation
 from .core.axis.each_part import EachPart
 from .core.axis.medial_axis import MedialAxis
+from .core.cover import ball_cover
+from .core.cover.ball_cover import BallCover, Balls
+from .core.cover.write_balls import export_balls
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -36,11 +39,11 @@ from .core.files.load_axis import load_axis
 from .core.files.read_ma import read_ma
 from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
-from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
 from .core.options import Choice, Switch
-from .core.samples.own_frame import in_own_frame, own_origin
-from .core.samples.shape import Shape
+from .core.rebuild import reconstruction
+from .core.rebuild.reconstruction import Reconstruction
+from .core.rebuild.reduce import reduce_axis
 from .core.settings import (
     ANALYSED,
     BALL_OPTIONS,
@@ -56,10 +59,8 @@ from .core.settings import (
     Side,
     SidesFrom,
 )
-from .core.solid import ball_cover, reconstruction
-from .core.solid.ball_cover import BallCover, Balls
-from .core.solid.reconstruction import Reconstruction
-from .core.solid.reduce import reduce_axis
+from .core.shape.own_frame import in_own_frame, own_origin
+from .core.shape.shape import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -20,7 +20,7 @@ from .output_object import SOURCE, Product, check_mode, is_gone, new_object, pla
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.skeleton.rig import Rig
+    from ..core.rig.rig import Rig
 
 _SHORTEST = 1e-6  # Blender deletes shorter bones
 

@@ -14,10 +14,10 @@ import bpy
 import numpy as np
 
 from ..core.axis.colours import radius_range
+from ..core.cover.ball_cover import Balls
 from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
-from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
 from .capsules_shown import add_capsules, is_capsules
 from .material import radius_material
@@ -28,7 +28,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.solid.ball_cover import BallCover
+    from ..core.cover.ball_cover import BallCover
 
 MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
 OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"

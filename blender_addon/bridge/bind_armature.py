@@ -17,7 +17,7 @@ from .output_object import inverse_of
 from .skeleton_object import rows_of_vertices
 
 if TYPE_CHECKING:
-    from ..core.skeleton.rig import Rig
+    from ..core.rig.rig import Rig
 
 MODIFIER = "Medial Axis Armature"
 _GROUPS = "ma_groups"  # the vertex groups that were made here, a name per line

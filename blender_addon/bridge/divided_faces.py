@@ -20,7 +20,7 @@ from .read_object import read_object, split_transform
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.samples.shape import Shape
+    from ..core.shape.shape import Shape
 
 # Layers of faces, while they are divided. Blender 5.2 forgets the selection of faces whose vertices are not selected.
 _CHOSEN, _SELECTED = "ma_divided", "ma_selected"

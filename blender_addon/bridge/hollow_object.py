@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.solid.drain_hole import drain_hole
+from ..core.hollow.drain_hole import drain_hole
 from .output_object import (
     Product,
     is_gone,
@@ -25,8 +25,8 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.solid.drain_hole import DrainHole
-    from ..core.solid.hollow import Hollow
+    from ..core.hollow.drain_hole import DrainHole
+    from ..core.hollow.hollow import Hollow
 
 WALL, LEAST = "ma_hollow_wall", "ma_hollow_least"
 _DRAIN = "Medial Axis Drain"  # the modifier

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.samples.outward_faces import TURNED, outward_shape
-from ..core.samples.shape import Shape
+from ..core.shape.outward_faces import TURNED, outward_shape
+from ..core.shape.shape import Shape
 from .mesh_arrays import read_loop_triangles, read_positions, select_faces
 from .thin_selection import in_object_mode
 

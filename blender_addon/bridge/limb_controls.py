@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.rig.names import target_of
 from ..core.settings import LimbControl
-from ..core.skeleton.names import target_of
 from .output_object import new_object
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from mathutils import Vector
 
-    from ..core.skeleton.rig import Rig
+    from ..core.rig.rig import Rig
 
 IK = "Medial Axis IK"  # the constraints that were made here
 _LINE = "ma_line"  # on the curve of a limb: a pointer to the source

@@ -17,8 +17,8 @@ from .source_state import forget_answer, remember_state, state_of
 if TYPE_CHECKING:
     from mathutils import Matrix
 
-    from ..core.samples.shape import Shape
     from ..core.settings import Look
+    from ..core.shape.shape import Shape
     from .shown_axis import Computed
 
 LIVE = "medial_axis_auto_update"  # a property of every object; off where it was never set

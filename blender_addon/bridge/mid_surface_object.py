@@ -20,7 +20,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.solid.mid_surface import MidSurface
+    from ..core.mid_surface.mid_surface import MidSurface
 
 SHEETS, SHARE = "ma_mid_sheets", "ma_mid_share"
 _NAME = "Medial Axis Thickness"  # of the modifier and of the vertex group

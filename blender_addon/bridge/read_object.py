@@ -19,7 +19,7 @@ import numpy as np
 
 from ..core.axis.polygon_triangles import polygon_triangles
 from ..core.errors import InvalidInputError
-from ..core.samples.shape import Shape
+from ..core.shape.shape import Shape
 from ..core.small_matrices import determinant, dot, length_of, stretches, times
 from .attributes import read_normals, read_vectors
 from .mesh_arrays import read_edges, read_polygons, read_positions

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 
 from ..core.errors import InvalidInputError, ReadError
-from ..core.samples.shape import Shape
+from ..core.shape.shape import Shape
 from .output_object import VERSION
 from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 

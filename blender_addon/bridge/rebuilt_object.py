@@ -16,9 +16,9 @@ import numpy as np
 
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.errors import InvalidInputError
+from ..core.rebuild.solid_difference import SolidDifference, solid_difference
 from ..core.settings import Side
 from ..core.small_matrices import inverse, times
-from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
 from .colours import OF, remember_colours
 from .material import FLAT
@@ -29,7 +29,7 @@ from .read_object import read_object
 from .reduced_object import is_reduced
 
 if TYPE_CHECKING:
-    from ..core.samples.shape import Shape
+    from ..core.shape.shape import Shape
 
 REBUILT = "ma_rebuilt"  # marks the object
 MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"

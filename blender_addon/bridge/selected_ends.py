@@ -16,7 +16,7 @@ from .skeleton_object import rows_of_vertices
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.samples.shape import Shape
+    from ..core.shape.shape import Shape
 
 
 def selected_ends(source: bpy.types.Object, shape: Shape) -> NDArray[np.float64]:

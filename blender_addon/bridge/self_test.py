@@ -6,9 +6,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..core.axis.known_box import Check, checks_of, compute_box
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
-from ..core.known_box import Check, checks_of, compute_box
 from .write_mesh import new_axis_mesh
 
 

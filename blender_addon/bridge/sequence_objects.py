@@ -18,7 +18,7 @@ import numpy as np
 from ..core.axis.colours import radius_range
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
-from ..core.files.load_skeleton import load_skeleton
+from ..core.skeleton.load_skeleton import load_skeleton
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
 from .material import RADIUS_MAX, RADIUS_MIN, dress, radius_material

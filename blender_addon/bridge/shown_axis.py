@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from ..core.axis.medial_axis import MedialAxis
     from ..core.machine.memory_limit import MemoryLimit
     from ..core.machine.progress import Progress
-    from ..core.samples.shape import Shape
     from ..core.settings import Look, Settings
+    from ..core.shape.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from ..core.samples.nearness import nearest
+from ..core.shape.nearness import nearest
 from ..core.small_matrices import times
 from .attributes import set_attribute
 from .evaluated_rows import only_deforms, row_of_vertices
@@ -20,7 +20,7 @@ from .read_object import split_transform
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.samples.shape import Shape
+    from ..core.shape.shape import Shape
     from ..core.skeleton.compute import Skeletonization
     from ..core.skeleton.skeleton import Skeleton
 

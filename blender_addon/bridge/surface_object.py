@@ -14,7 +14,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.solid.reconstruction import Reconstruction
+    from ..core.rebuild.reconstruction import Reconstruction
 
 OFF_SURFACE = "ma_off_surface"
 NONMANIFOLD_EDGES = "ma_nonmanifold_edges"

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.samples.triangle_faces import TriangleFaces
-from ..core.solid.measurement import Measurement
-from ..core.solid.thickness_colours import ThicknessScale, histogram, scale_of
-from ..core.solid.thin_parts import ThinParts
+from ..core.shape.triangle_faces import TriangleFaces
+from ..core.thickness.measurement import Measurement
+from ..core.thickness.thickness_colours import ThicknessScale, histogram, scale_of
+from ..core.thickness.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
 from .evaluated_rows import keeps_rows

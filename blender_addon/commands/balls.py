@@ -8,7 +8,7 @@ import argparse
 from ..core.batch.balls_work import BallsWork
 from ..core.batch.batch import Work
 from ..core.batch.option_words import add_options, add_sampling, sampling_from, settings_from
-from ..core.files.write_balls import BALL_FORMATS
+from ..core.cover.write_balls import BALL_FORMATS
 from ..core.settings import BallSettings
 from .words import add_files, command_parser
 

@@ -8,7 +8,7 @@ import argparse
 from ..core.batch.batch import Work
 from ..core.batch.mid_surface_work import MidSurfaceWork
 from ..core.batch.option_words import add_options, add_sampling, sampling_from, settings_from
-from ..core.files.write_mid_surface import MID_SURFACE_FORMATS
+from ..core.mid_surface.write_mid_surface import MID_SURFACE_FORMATS
 from ..core.settings import MidSurfaceSettings
 from .words import add_files, command_parser
 

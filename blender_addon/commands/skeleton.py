@@ -9,8 +9,8 @@ import math
 from ..core.batch.batch import Work
 from ..core.batch.option_words import add_options, add_sampling, sampling_from, settings_from
 from ..core.batch.skeleton_work import SkeletonWork
-from ..core.files.write_skeleton import SKELETON_FORMATS
 from ..core.settings import SkeletonSettings
+from ..core.skeleton.write_skeleton import SKELETON_FORMATS
 from .words import add_files, command_parser
 
 _HELP = """\

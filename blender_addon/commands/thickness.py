@@ -8,8 +8,8 @@ import argparse
 from ..core.batch.batch import Work
 from ..core.batch.option_words import add_sampling, add_thickness, settings_from
 from ..core.batch.thickness_work import ThicknessWork
-from ..core.files.write_thickness import THICKNESS_FORMATS
 from ..core.settings import Settings, ThicknessSettings
+from ..core.thickness.write_thickness import THICKNESS_FORMATS
 from .words import add_files, command_parser
 
 _HELP = """\

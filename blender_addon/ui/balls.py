@@ -16,8 +16,8 @@ from ..bridge.balls_object import (
 )
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis
+from ..core.cover.ball_cover import cover_by_balls
 from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
-from ..core.solid.ball_cover import cover_by_balls
 from .compute_operator import ComputeOperator
 from .figures import length_text
 from .preferences import memory_limit

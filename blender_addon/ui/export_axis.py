@@ -10,11 +10,11 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..bridge.read_object import read_object
 from ..core.axis.medial_axis import MedialAxis
+from ..core.cover.ball_cover import cover_by_balls
+from ..core.cover.write_balls import export_balls
 from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.files.write import FORMATS, export_axis
-from ..core.files.write_balls import export_balls
 from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode, CoverShapes
-from ..core.solid.ball_cover import cover_by_balls
 from .export_file import ExportFile
 from .plain_words import told
 from .preferences import memory_limit

@@ -7,9 +7,9 @@ from bpy.props import EnumProperty, StringProperty
 from ..bridge import thickness_object as of
 from ..bridge.output_object import is_gone, source_of
 from ..core.errors import InvalidInputError, MedialAxisError
-from ..core.files.write_thickness import THICKNESS_FORMATS, export_thickness
-from ..core.solid.thickness import kept_measurement
-from ..core.solid.thin_parts import find_thin_parts
+from ..core.thickness.thickness import kept_measurement
+from ..core.thickness.thin_parts import find_thin_parts
+from ..core.thickness.write_thickness import THICKNESS_FORMATS, export_thickness
 from .export_file import ExportFile
 from .plain_words import told
 from .thickness_properties import shown_thickness

@@ -6,9 +6,9 @@ from functools import partial
 import bpy
 
 from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, write_hollow
+from ..core.hollow.hollow import hollow
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
-from ..core.solid.hollow import hollow
 from .alone import Alone
 from .compute_operator import ComputeOperator
 from .properties import prop, settings_from, with_options

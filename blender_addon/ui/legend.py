@@ -8,7 +8,7 @@ import bpy.utils.previews
 
 from ..core.axis.colours import colours
 from ..core.axis.verdict import Light
-from ..core.solid.thickness_colours import STEPS, STEPS_BELOW
+from ..core.thickness.thickness_colours import STEPS, STEPS_BELOW
 
 _STEPS = 6
 _SIZE = 32

@@ -10,9 +10,9 @@ from ..bridge.mid_surface_object import (
     place_thick_parts,
     write_mid_surface,
 )
+from ..core.mid_surface.mid_surface import mid_surface
 from ..core.samples.density import share_text
 from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
-from ..core.solid.mid_surface import mid_surface
 from .alone import Alone
 from .preferences import memory_limit
 from .properties import settings_from, with_options

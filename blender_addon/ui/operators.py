@@ -22,6 +22,7 @@ from ..bridge.shown_axis import compute_shown
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.topology import betti_in_short
 from ..core.errors import InvalidInputError, MedialAxisError
+from ..core.rebuild.reconstruction import reconstruct
 from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
 from ..core.settings import (
@@ -34,7 +35,6 @@ from ..core.settings import (
     SamplingMode,
     applies_to_form,
 )
-from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
 from .guide import end_guide

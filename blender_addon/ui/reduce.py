@@ -12,9 +12,9 @@ from ..bridge.read_object import read_object
 from ..bridge.rebuilt_object import in_frame_of, unrebuilt
 from ..bridge.reduced_object import check_reduced_writable, is_reduced, write_reduced
 from ..core.axis.medial_axis import MedialAxis
-from ..core.samples.shape import Shape
-from ..core.solid.reduce import reduce_axis, reduced_difference
-from ..core.solid.solid_difference import PointDifference
+from ..core.rebuild.reduce import reduce_axis, reduced_difference
+from ..core.rebuild.solid_difference import PointDifference
+from ..core.shape.shape import Shape
 from . import current_job
 from .alone import Alone
 from .compute_operator import ComputeOperator

@@ -17,6 +17,7 @@ from ..bridge.skeleton_object import (
     write_skeleton,
 )
 from ..bridge.source_state import same_state
+from ..core.rig.rig import compute_rig
 from ..core.settings import (
     BIND,
     LOOKS,
@@ -27,7 +28,6 @@ from ..core.settings import (
     SkeletonSettings,
 )
 from ..core.skeleton.compute import compute_skeleton
-from ..core.skeleton.rig import compute_rig
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import (

@@ -19,8 +19,8 @@ from ..bridge.thicken_modifier import (
 from ..bridge.thickness_object import check_thickness_writable, write_thickness
 from ..core.samples.density import share_text
 from ..core.settings import THICKEN_OPTIONS, Moving, ThickenSettings
-from ..core.solid.thicken import Thickened, thicken
-from ..core.solid.thin_in_part import DIVISIONS, faces_to_divide
+from ..core.thickness.thicken import Thickened, thicken
+from ..core.thickness.thin_in_part import DIVISIONS, faces_to_divide
 from .preferences import memory_limit
 from .properties import settings_from, with_options
 from .wall_operator import WallOperator

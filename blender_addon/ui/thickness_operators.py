@@ -19,8 +19,8 @@ from ..bridge.thickness_object import (
 )
 from ..bridge.thin_selection import least_of, patch_at, patches_of, select_thin
 from ..core.settings import LOOKS, OPTIONS, THICKNESS_OPTIONS, Noise, ThicknessSettings
-from ..core.solid.thickness import measure_thickness
-from ..core.solid.thin_parts import find_thin_parts
+from ..core.thickness.thickness import measure_thickness
+from ..core.thickness.thin_parts import find_thin_parts
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import SamplingProperties, draw_sampling, prop, settings_from

@@ -7,8 +7,8 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.thickness_object import KEY, carrier_of, is_copy, show_limit
 from ..core.errors import MedialAxisError
 from ..core.settings import THICKNESS_OPTIONS
-from ..core.solid.thickness import kept_measurement
-from ..core.solid.thin_parts import find_thin_parts
+from ..core.thickness.thickness import kept_measurement
+from ..core.thickness.thin_parts import find_thin_parts
 from . import current_job
 from .properties import with_options
 

@@ -14,8 +14,8 @@ sys.path[:0] = [
     str(Path(__file__).resolve().parents[2]),
     str(Path(__file__).resolve().parents[2] / "tests"),
 ]
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import Settings, SkeletonSettings  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
 from medial_axis.core.skeleton.branches import measure_branches  # noqa: E402
 from medial_axis.core.skeleton.compute import compute_skeleton  # noqa: E402
 from support import meshes, swept  # noqa: E402

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 medial = _module.load()
 
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import Edges, SamplingMode, Settings, ThicknessSettings  # noqa: E402
-from medial_axis.core.solid.thickness import measure_thickness  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
+from medial_axis.core.thickness.thickness import measure_thickness  # noqa: E402
 from support import meshes, thick_meshes  # noqa: E402
 from support.crossing_triangles import crossing_pairs  # noqa: E402
 

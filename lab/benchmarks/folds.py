@@ -22,9 +22,9 @@ from scipy.spatial.transform import Rotation
 _module.load()
 
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402  (found through _module)
+from medial_axis.core.rig.bones import Bones  # noqa: E402
+from medial_axis.core.rig.rig import Rig, compute_rig  # noqa: E402
 from medial_axis.core.settings import Settings, SkeletonSettings  # noqa: E402
-from medial_axis.core.skeleton.bones import Bones  # noqa: E402
-from medial_axis.core.skeleton.rig import Rig, compute_rig  # noqa: E402
 
 FILES = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
 HEADER = ["mesh", "bones", "degrees", "weights: mean", "largest", "rigid: mean", "largest"]

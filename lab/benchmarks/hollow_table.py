@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 medial = _module.load()
 
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
+from medial_axis.core.hollow.hollow import hollow  # noqa: E402
 from medial_axis.core.settings import HollowSettings  # noqa: E402
-from medial_axis.core.solid.hollow import hollow  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
 from support.crossing_triangles import crossing_pairs  # noqa: E402
 
 try:

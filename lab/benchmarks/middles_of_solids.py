@@ -18,9 +18,9 @@ _module.load()
 from closed_solids import closed_bodies  # noqa: E402
 from medial_axis.core.errors import InvalidInputError  # noqa: E402
 from medial_axis.core.machine.cache import CACHE  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
+from medial_axis.core.mid_surface.mid_surface import mid_surface  # noqa: E402
 from medial_axis.core.settings import MidSurfaceSettings, Settings  # noqa: E402
-from medial_axis.core.solid.mid_surface import mid_surface  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
 from support.topology import components  # noqa: E402
 
 

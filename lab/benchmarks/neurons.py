@@ -31,8 +31,8 @@ import numpy as np
 
 medial = _module.load()
 
-from medial_axis.core.samples.shape import Shape  # noqa: E402  (found through _module)
 from medial_axis.core.settings import Settings, SkeletonSettings  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402  (found through _module)
 from medial_axis.core.skeleton.compute import compute_skeleton  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from skeletons import Lines, cgal, wavefront  # noqa: E402

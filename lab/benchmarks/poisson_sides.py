@@ -33,8 +33,8 @@ import numpy as np
 import scan_race
 import scans
 from medial_axis.core.samples.scan import prepared
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Prepare, Settings
+from medial_axis.core.shape.shape import Shape
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 from support.measure import inner_facets

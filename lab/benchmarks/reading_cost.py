@@ -22,9 +22,9 @@ from medial_axis.core.axis.compute import compute_axis  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
 from medial_axis.core.machine.cache import CACHE  # noqa: E402
 from medial_axis.core.samples.mesh_parts import mesh_counts, without_sheets  # noqa: E402
-from medial_axis.core.samples.outward_faces import outward_shape  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import Settings  # noqa: E402
+from medial_axis.core.shape.outward_faces import outward_shape  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
 from support import meshes, messy  # noqa: E402
 
 HEADER = ["mesh", "faces", "as", "read, s", "parts, s", "click, s", "share of the click"]

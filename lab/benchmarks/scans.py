@@ -27,9 +27,9 @@ MEDIAL = _module.load()
 
 from medial_axis.core.axis.compute import compute  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
-from medial_axis.core.files.picture import png  # noqa: E402
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
 from medial_axis.core.settings import Prepare, Settings  # noqa: E402
+from medial_axis.core.thickness.picture import png  # noqa: E402
 from support.shapes import SHAPES, Cyclide, HoledPlate, RoundCone  # noqa: E402
 
 BALL, RING = (1, 0, 0), (1, 1, 0)

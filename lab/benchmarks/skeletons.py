@@ -35,9 +35,9 @@ medial = _module.load()
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
 from medial_axis.core.machine.progress import Progress  # noqa: E402
 from medial_axis.core.samples.choose_samples import choose_samples  # noqa: E402  (found through _module)
-from medial_axis.core.samples.nearness import nearest  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings  # noqa: E402
+from medial_axis.core.shape.nearness import nearest  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
 from medial_axis.core.skeleton.compute import compute_skeleton  # noqa: E402
 from medial_axis.core.skeleton.skeleton import Skeleton, skeleton_of  # noqa: E402
 

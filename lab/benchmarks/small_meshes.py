@@ -32,7 +32,7 @@ def betti_of(axis):
 
 def rows(name, counts):
     import medial_axis
-    from medial_axis.core.solid.reduce import reduced_difference
+    from medial_axis.core.rebuild.reduce import reduced_difference
 
     shape = medial_axis.read(_module.DATA / name)
     axis = medial_axis.compute(shape.points, shape.triangles).axis

@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 medial = _module.load()
 
 from medial_axis.core.machine.cache import CACHE  # noqa: E402
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import Edges, SamplingMode, Settings, ThicknessSettings  # noqa: E402
-from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces  # noqa: E402
-from medial_axis.core.solid.thickness import measure_thickness  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
+from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces  # noqa: E402
+from medial_axis.core.thickness.thickness import measure_thickness  # noqa: E402
 from support import distance, meshes, thick_meshes  # noqa: E402
 
 try:

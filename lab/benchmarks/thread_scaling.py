@@ -22,9 +22,9 @@ import measuring
 medial = _module.load()
 
 import medial_axis  # noqa: E402  (found through _module)
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import SamplingMode, Settings, ThicknessSettings  # noqa: E402
-from medial_axis.core.solid.thickness import measure_thickness  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
+from medial_axis.core.thickness.thickness import measure_thickness  # noqa: E402
 from output_hashes import ellipsoid  # noqa: E402
 from support import meshes  # noqa: E402
 

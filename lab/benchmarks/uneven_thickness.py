@@ -17,9 +17,9 @@ from scipy.spatial import ConvexHull
 
 medial = _module.load()
 
-from medial_axis.core.samples.shape import Shape  # noqa: E402
 from medial_axis.core.settings import Edges, SamplingMode, Settings, ThicknessSettings  # noqa: E402
-from medial_axis.core.solid.thickness import measure_thickness  # noqa: E402
+from medial_axis.core.shape.shape import Shape  # noqa: E402
+from medial_axis.core.thickness.thickness import measure_thickness  # noqa: E402
 from support import inputs, meshes, thick_meshes  # noqa: E402
 
 Array = NDArray[np.float64]

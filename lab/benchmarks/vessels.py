@@ -23,7 +23,7 @@ import numpy as np
 
 _module.load()
 
-from medial_axis.core.samples.shape import Shape  # noqa: E402  (found through _module)
+from medial_axis.core.shape.shape import Shape  # noqa: E402  (found through _module)
 from neurons import HEADER, LEAST, Tree, failed, mesh_of, row, rows_of, volume_of  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from skeletons import Lines  # noqa: E402

@@ -18,19 +18,19 @@ from medial_axis import cli
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.axis.facet_triangles import triangulate_facets
 from medial_axis.core.axis.medial_axis import LevelValues, MedialAxis
+from medial_axis.core.cover.ball_cover import Balls
+from medial_axis.core.cover.write_balls import export_balls
 from medial_axis.core.errors import ExportError, MedialAxisError
 from medial_axis.core.files.axis_arrays import as_arrays, exact_balls
 from medial_axis.core.files.load_axis import load_axis
-from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis
-from medial_axis.core.files.write_balls import export_balls
-from medial_axis.core.files.write_skeleton import export_skeleton
 from medial_axis.core.settings import CoverMode
+from medial_axis.core.skeleton.load_skeleton import load_skeleton
 from medial_axis.core.skeleton.parts import Parts, Places
 from medial_axis.core.skeleton.skeleton import Skeleton, skeleton_of
-from medial_axis.core.solid.ball_cover import Balls
+from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from support.readers import READERS, area_of
 
 from .inside import Random, _damaged, _is_a_sentence, _mesh, _settings

@@ -89,7 +89,7 @@ MUTATIONS = (
         "test_sampling.py",
     ),
     _bug(
-        "samples/shape.py",
+        "shape/shape.py",
         "self.points[self.triangles[:, corner]] - self.points[0] for corner",
         "self.points[self.triangles[:, corner]] for corner",
         "the volume is measured from the origin",
@@ -146,28 +146,28 @@ MUTATIONS = (
     ),
     # ---- solid
     _bug(
-        "solid/thin_parts.py",
+        "thickness/thin_parts.py",
         "thin = found.of_triangles < limit - found.slack",
         "thin = found.of_triangles <= limit + found.slack",
         "a wall as thick as the limit is thin",
         "test_thickness.py",
     ),
     _bug(
-        "solid/thin_parts.py",
+        "thickness/thin_parts.py",
         "np.where(large, np.cumsum(large) - 1, -1)",
         "np.where(large, np.cumsum(large), -1)",
         "patches are numbered from 1",
         "test_thickness.py",
     ),
     _bug(
-        "solid/measurement.py",
+        "thickness/measurement.py",
         "np.minimum(np.maximum(a, b), c))",
         "np.maximum(np.maximum(a, b), c))",
         "the length of a triangle is the maximum, not the median",
         "test_thickness.py",
     ),
     _bug(
-        "solid/close_walls.py",
+        "thickness/close_walls.py",
         "convex & (turned < -cosine(_ACUTE))",
         "~convex & (turned < -cosine(_ACUTE))",
         "wedges of air hide close walls, and wedges of the solid do not",
@@ -175,21 +175,21 @@ MUTATIONS = (
         "test_thickness.py",
     ),
     _bug(
-        "solid/bounded_lengths.py",
+        "thickness/bounded_lengths.py",
         "torn[walls.faces[~used[walls.sample]]] = True",
         "torn[walls.faces[used[walls.sample]]] = True",
         "close walls without triangles are not shown",
         "test_close_walls.py",
     ),
     _bug(
-        "solid/bounded_lengths.py",
+        "thickness/bounded_lengths.py",
         "removed = on_torn[surface.triangles].all(axis=1) & np.isfinite(surface.at_most)",
         "removed = on_torn[surface.triangles].all(axis=1) & np.isinf(surface.at_most)",
         "close walls on torn faces are there twice",
         "test_close_walls.py",
     ),
     _bug(
-        "solid/ball_cover.py",
+        "cover/ball_cover.py",
         "settings = replace(settings, side=Side.INNER)",
         "settings = replace(settings)",
         "balls may be those of the outside",
@@ -198,7 +198,7 @@ MUTATIONS = (
         "test_balls_cli.py",
     ),
     _bug(
-        "solid/thickness_colours.py",
+        "thickness/thickness_colours.py",
         "found = np.where(lengths < self.limit, below, above)",
         "found = np.where(lengths <= self.limit, below, above)",
         "what is as thick as the limit has the colours of what is thinner",
@@ -214,7 +214,7 @@ MUTATIONS = (
         "test_skeleton.py",
     ),
     _bug(
-        "skeleton/names.py",
+        "rig/names.py",
         'found.append({".L": number, ".R": other})',
         'found.append({".R": number, ".L": other})',
         "left and right are exchanged",
@@ -228,7 +228,7 @@ MUTATIONS = (
         "test_skeleton.py",
     ),
     _bug(
-        "skeleton/weights.py",
+        "rig/weights.py",
         "weight[rows, hangs_on] += (block - left).sum(axis=1)",
         "weight[rows, hangs_on] += block.sum(axis=1)",
         "a parent gets weight that its child keeps",

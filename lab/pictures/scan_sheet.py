@@ -21,9 +21,9 @@ import _module
 MEDIAL = _module.load()
 
 from medial_axis.core.axis.compute import compute  # noqa: E402
-from medial_axis.core.files.picture import picture_of, png  # noqa: E402
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
 from medial_axis.core.settings import Prepare, Settings  # noqa: E402
+from medial_axis.core.thickness.picture import picture_of, png  # noqa: E402
 from virtual_scan import Faults, scan  # noqa: E402
 
 NOISY = Faults(noise=0.25)

@@ -95,7 +95,7 @@ def tries(seed):
     if "ma_thickness" not in source.data.attributes:
         return False
     carrier = addon("bridge.thickness_object").carrier_of(source)
-    measured = addon("core.solid.thickness").kept_measurement(carrier["ma_thickness_key"])
+    measured = addon("core.thickness.thickness").kept_measurement(carrier["ma_thickness_key"])
     rows, written = travelled(source), attribute(source.data, "ma_thickness")
     values = np.float32(measured.of_vertices)
     assert len(rows) == len(values) and len(written) == len(positions(source.data))

@@ -117,7 +117,7 @@ def moved(axis, by):
     ids=["moved", "radii", "shrunk"],
 )
 def test_self_test_notices(change, failed):
-    core = addon("core.known_box")
+    core = addon("core.axis.known_box")
     box = core.compute_box()
     checks = core._of_shape(change(box.axis), box.chosen.samples.spacing)
     assert {number for number, check in enumerate(checks, 1) if not check.passed} >= failed - {4}
@@ -125,7 +125,7 @@ def test_self_test_notices(change, failed):
 
 
 def test_self_test_notices_an_empty_axis():
-    core = addon("core.known_box")
+    core = addon("core.axis.known_box")
     axis = core.compute_box().axis
     empty = type(axis)(**vars(axis) | {"face_offsets": np.zeros(1, np.int32)})
     assert [check.passed for check in core._of_shape(empty, 0.1)] == [False]

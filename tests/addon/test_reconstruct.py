@@ -329,7 +329,7 @@ def test_undo_is_one_step():
 def test_cancelled_job_leaves_nothing():
     points, _ = on_ellipsoid(200_000)
     task = addon("core.machine.job").Task(
-        "Scan", lambda progress: addon("core.solid.reconstruction").reconstruct(points, progress)
+        "Scan", lambda progress: addon("core.rebuild.reconstruction").reconstruct(points, progress)
     )
     before = contents()
     job = addon("core.machine.job").Job([task])
@@ -343,7 +343,7 @@ def test_cancelled_job_leaves_nothing():
 
 def test_progress_is_told():
     points, _ = on_ellipsoid(60_000)
-    work = addon("core.solid.reconstruction").reconstruct
+    work = addon("core.rebuild.reconstruction").reconstruct
     job = addon("core.machine.job").Job(
         [addon("core.machine.job").Task("Scan", lambda progress: work(points, progress))]
     )
@@ -359,7 +359,7 @@ def test_progress_is_told():
 def test_refusal_while_another_computation_runs_names_it():
     scan()
     points, _ = on_ellipsoid(300_000)
-    work = addon("core.solid.reconstruction").reconstruct
+    work = addon("core.rebuild.reconstruction").reconstruct
     task = addon("core.machine.job").Task("Big", lambda progress: work(points, progress))
     addon("ui.current_job").start([task], "surface")
     for operator in ("tight_cocone_surface", "medial_axis"):

@@ -256,7 +256,7 @@ def test_skeletons_of_every_frame(bending, tmp_path):
     assert [shown("Arm")[frame] for frame in (1, 2, 3)] == [[f"Arm {f:04d}"] for f in (1, 2, 3)]
     spans = []
     for name, thing in zip(names, play("Arm").objects, strict=True):
-        skeleton = addon("core.files.load_skeleton").load_skeleton(tmp_path / name)
+        skeleton = addon("core.skeleton.load_skeleton").load_skeleton(tmp_path / name)
         assert (skeleton.tips, skeleton.loops) == (2, 0) == (thing["ma_ends"], thing["ma_loops"])
         (spline,) = thing.data.splines
         points = np.array([point.co[:3] for point in spline.points])

@@ -425,7 +425,7 @@ def test_armatures_go_through_the_files_of_others(form, tmp_path):
         head = np.array(thing.matrix_world @ bone.head_local)
         np.testing.assert_allclose(head, heads[bone.name], atol=1e-4)
     now = world_positions(source)
-    row = addon("core.samples.nearness").nearest(now, rest)  # corners may have become vertices
+    row = addon("core.shape.nearness").nearest(now, rest)  # corners may have become vertices
     np.testing.assert_allclose(now, rest[row], atol=1e-4)
     found = named_weights(source)
     assert set(found) <= set(weights)

@@ -585,7 +585,7 @@ def test_parsers_of_urdf_read_them(tmp_path, parser):
 
 
 def test_placed_balls_scale(tmp_path):
-    from medial_axis.core.files.write_balls import export_balls
+    from medial_axis.core.cover.write_balls import export_balls
 
     balls = covered(TORUS, count=5, mode="around", sampling="vertices").balls
     world = np.array([(0, -2.0, 0, 1), (2.0, 0, 0, 2), (0, 0, 2.0, 3), (0, 0, 0, 1)])

@@ -11,14 +11,14 @@ import pytest
 from medial_axis.cli import main
 from medial_axis.core.curves.bridges import on_loops
 from medial_axis.core.curves.smooth_line import smooth_line, smoothed
-from medial_axis.core.files.write_skeleton import export_skeleton
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Settings, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.branches import MEASURES, branches_of, measure_branches
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.parts import Parts, Places
 from medial_axis.core.skeleton.sections import Faces, section
 from medial_axis.core.skeleton.skeleton import skeleton_of
+from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from scipy.ndimage import binary_fill_holes, label
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components

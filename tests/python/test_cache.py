@@ -7,9 +7,9 @@ from enum import Enum
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.cover.ball_cover import cover_by_balls
 from medial_axis.core.machine.cache import CACHE, key_of
 from medial_axis.core.options import Choice, Integer, Switch
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     BALL_OPTIONS,
     OPTIONS,
@@ -25,10 +25,10 @@ from medial_axis.core.settings import (
     SkeletonSettings,
     ThicknessSettings,
 )
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
-from medial_axis.core.solid.ball_cover import cover_by_balls
-from medial_axis.core.solid.thickness import kept_measurement, measure_thickness
-from medial_axis.core.solid.thin_parts import find_thin_parts
+from medial_axis.core.thickness.thickness import kept_measurement, measure_thickness
+from medial_axis.core.thickness.thin_parts import find_thin_parts
 from support.meshes import box, icosphere, join, torus, uv_sphere
 
 

@@ -6,9 +6,9 @@ from functools import cache
 import medial_axis
 import numpy as np
 import pytest
-from medial_axis.core.solid import capsule_segments
-from medial_axis.core.solid.capsule_fits import fitting_radii, gaps
-from medial_axis.core.solid.capsule_segments import evenly, places_inside, segments_of
+from medial_axis.core.cover import capsule_segments
+from medial_axis.core.cover.capsule_fits import fitting_radii, gaps
+from medial_axis.core.cover.capsule_segments import evenly, places_inside, segments_of
 from support import meshes, swept
 
 ROD = swept.capsule(4.0, 0.3, 64)

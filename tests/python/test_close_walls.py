@@ -6,12 +6,12 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.files.write_thickness import export_thickness
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, ThicknessSettings
-from medial_axis.core.solid.face_lengths import MeasuredFaces
-from medial_axis.core.solid.thickness import measure_thickness
-from medial_axis.core.solid.thin_parts import find_thin_parts
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.face_lengths import MeasuredFaces
+from medial_axis.core.thickness.thickness import measure_thickness
+from medial_axis.core.thickness.thin_parts import find_thin_parts
+from medial_axis.core.thickness.write_thickness import export_thickness
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from support import meshes
@@ -235,7 +235,7 @@ def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
 
 @pytest.mark.parametrize("cut", [1, 2, 5])
 def test_pieces_cover_a_face(cut):
-    from medial_axis.core.solid.face_pieces import _lattice
+    from medial_axis.core.thickness.face_pieces import _lattice
 
     shares, pieces = _lattice(cut)
     corners = shares[pieces] @ np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
@@ -302,7 +302,7 @@ def test_a_gap_is_no_wall():
 def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
     """Where the axis and the rays find nothing: here by taking the walls away."""
     from medial_axis.core.machine.cache import CACHE
-    from medial_axis.core.solid import close_walls, thickness
+    from medial_axis.core.thickness import close_walls, thickness
 
     CACHE.clear()  # another test may have measured this plate by its faces
     nothing = lambda shape, *_: close_walls.no_close_walls(shape)
@@ -322,7 +322,7 @@ def test_what_is_left_out_on_purpose_is_not_unknown():
 
 def test_only_wedges_of_the_solid_are_acute_edges():
     """Inside out, the sharp edge of a wedge is that of a groove, where ways through the solid do not become short."""
-    from medial_axis.core.solid.close_walls import _acute_edges
+    from medial_axis.core.thickness.close_walls import _acute_edges
 
     points = np.array(
         [(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (4.0, -1.0), (4.0, 1.0))]

@@ -76,7 +76,7 @@ def test_radii_that_hardly_differ_have_one_colour():
 
 
 def test_colours_of_thickness_have_a_hard_edge_at_the_limit():
-    from medial_axis.core.solid.thickness_colours import STEPS, STEPS_BELOW, ThicknessScale
+    from medial_axis.core.thickness.thickness_colours import STEPS, STEPS_BELOW, ThicknessScale
 
     scale = ThicknessScale(0.0, 2.0, 6.0)
     found = scale.positions(np.array([0.0, 1.999999, 2.0, 6.0, 9.0, np.inf]))

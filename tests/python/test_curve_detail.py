@@ -13,8 +13,8 @@ from medial_axis.core.axis.levels import hierarchy_of
 from medial_axis.core.curves.net import Net
 from medial_axis.core.curves.removals import recorded
 from medial_axis.core.curves.smooth_line import Course, smooth_between
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.united import united
 from support.meshes import capsule, flip, icosphere, join, torus

@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.samples.outward_faces import outward_shape
-from medial_axis.core.samples.shape import Shape
+from medial_axis.core.mid_surface.carried_sheets import CarriedSheets
+from medial_axis.core.mid_surface.cut_out_plates import cut_out_plate
+from medial_axis.core.mid_surface.mid_surface import mid_surface
 from medial_axis.core.settings import MidSurfaceSettings, Settings
-from medial_axis.core.solid.carried_sheets import CarriedSheets
-from medial_axis.core.solid.cut_out_plates import cut_out_plate
-from medial_axis.core.solid.mid_surface import mid_surface
+from medial_axis.core.shape.outward_faces import outward_shape
+from medial_axis.core.shape.shape import Shape
 from support import topology
 from support.thick_meshes import block
 from support.thin_solids import turned, union

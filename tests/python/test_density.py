@@ -6,10 +6,10 @@ import pytest
 from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.samples import analysis
 from medial_axis.core.samples.density import Density, estimate, percent
-from medial_axis.core.samples.nearness import near
 from medial_axis.core.samples.sampling_report import report_sampling
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
+from medial_axis.core.shape.nearness import near
+from medial_axis.core.shape.shape import Shape
 from support.meshes import icosphere
 from support.shapes import SHAPES
 

@@ -12,8 +12,8 @@ from medial_axis.core.axis.smooth_curve import smooth_curve
 from medial_axis.core.curves.net import chains
 from medial_axis.core.curves.smooth_line import marks_of
 from medial_axis.core.curves.through_forks import Way, ways_through
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Form, SamplingMode, Settings
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.united import united
 from support.meshes import capsule, join, torus
 

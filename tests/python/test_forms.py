@@ -15,7 +15,6 @@ from medial_axis.core.axis.levels import hierarchy_of
 from medial_axis.core.axis.topology import betti_words
 from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.samples.levels import Levels
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     OPTIONS,
     Form,
@@ -26,6 +25,7 @@ from medial_axis.core.settings import (
     SidesFrom,
     applies_to_form,
 )
+from medial_axis.core.shape.shape import Shape
 from support.meshes import icosphere, torus
 from support.same_axis import same_axis
 
@@ -49,7 +49,7 @@ def turned(mesh):
 
 
 def box(x=0.0, size=(1.0, 1.0, 1.0)):
-    from medial_axis.core.known_box import _CORNERS, _TRIANGLES
+    from medial_axis.core.axis.known_box import _CORNERS, _TRIANGLES
 
     return _CORNERS * size + (x, 0, 0), _TRIANGLES
 

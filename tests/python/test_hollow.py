@@ -12,11 +12,11 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.batch import hollow_work
 from medial_axis.core.errors import Cancelled, InvalidInputError
+from medial_axis.core.hollow.drain_hole import drain_hole
+from medial_axis.core.hollow.hollow import _step, hollow
 from medial_axis.core.machine.progress import Progress
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import HollowSettings
-from medial_axis.core.solid.drain_hole import drain_hole
-from medial_axis.core.solid.hollow import _step, hollow
+from medial_axis.core.shape.shape import Shape
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support import topology
 from support.crossing_triangles import crossing_pairs

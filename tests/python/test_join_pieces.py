@@ -4,8 +4,8 @@
 import medial_axis
 import numpy as np
 from medial_axis.core.curves.net import Net
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.join_pieces import join_pieces
 from support import meshes, swept

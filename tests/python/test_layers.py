@@ -17,50 +17,35 @@ NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
 # The rooms that each room may import besides itself; "" is the package itself (its name and version).
-CORE = {
-    "core",
-    "core/machine",
-    "core/samples",
-    "core/curves",
-    "core/axis",
-    "core/solid",
-    "core/skeleton",
-    "core/files",
-    "core/batch",
-}
+_ALL = {"core", "core/machine"}  # every room of core sees these
 MAY_IMPORT = {
-    "core": {"core/machine", "core/axis", ""},  # only the known box, which is on top, sees rooms
+    "core": set(),
     "core/machine": {"core", "lib"},
-    "core/samples": {"core", "core/machine"},
-    "core/curves": {"core", "core/machine", "core/samples"},
-    "core/axis": {"core", "core/machine", "core/samples", "core/curves"},
-    "core/solid": {"core", "core/machine", "core/samples", "core/axis"},
-    "core/skeleton": {"core", "core/machine", "core/samples", "core/curves", "core/axis"},
-    "core/files": {
-        "core",
-        "core/machine",
-        "core/samples",
-        "core/curves",
-        "core/axis",
-        "core/solid",
-        "core/skeleton",
+    "core/shape": _ALL,
+    "core/samples": {*_ALL, "core/shape"},
+    "core/curves": {*_ALL, "core/shape", "core/samples"},
+    "core/axis": {*_ALL, "core/shape", "core/samples", "core/curves", ""},
+    "core/files": {*_ALL, "core/shape", "core/axis"},
+    "core/thickness": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
+    "core/mid_surface": {
+        *(*_ALL, "core/shape", "core/samples", "core/axis", "core/files", "core/thickness"),
     },
-    "core/batch": {
-        "core",
-        "core/machine",
-        "core/samples",
-        "core/axis",
-        "core/solid",
-        "core/skeleton",
-        "core/files",
-        "",
+    "core/hollow": {*_ALL, "core/shape", "core/samples"},
+    "core/cover": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
+    "core/rebuild": {*_ALL, "core/shape", "core/samples", "core/axis"},
+    "core/skeleton": {
+        *(*_ALL, "core/shape", "core/samples", "core/curves", "core/axis", "core/files"),
     },
+    "core/rig": {*_ALL, "core/shape", "core/curves", "core/skeleton"},
+}
+CORE = {*MAY_IMPORT, "core/batch"}
+MAY_IMPORT |= {
+    "core/batch": {*MAY_IMPORT, ""} - {"core/curves", "core/rig"},
     "commands": {*CORE, "bridge", ""},
     "bridge": {*CORE, "bridge/nodes", ""},
     "bridge/nodes": {"core/axis", "bridge"},
     "ui": {*CORE, "bridge", "bridge/nodes", ""},
 }
-ON_TOP = {"core.known_box"}  # of core; the rooms below do not see it
 
 
 # --- Python
@@ -113,12 +98,6 @@ def test_rooms_have_files():
 def test_python_looks_down_only(python_file):
     room, (_, inside) = python_file
     assert {room_of(name) for name in inside} <= {room, *MAY_IMPORT[room]}
-
-
-def test_what_is_on_top_of_core_is_seen_from_above_only(python_file):
-    room, (_, inside) = python_file
-    seen = {".".join(name.split(".")[:2]) for name in inside}
-    assert not (seen & ON_TOP and room.startswith("core"))
 
 
 def test_every_folder_of_core_is_a_room():

@@ -19,9 +19,9 @@ from medial_axis.core.machine import cache, few_addresses, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import CURVE, MemoryLimit, Use, memory_needed
+from medial_axis.core.rebuild.reconstruction import reconstruct
 from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.sampling_report import report_sampling
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.thinning import fewer_samples, spread_rows
 from medial_axis.core.settings import (
     MEGABYTE,
@@ -32,7 +32,7 @@ from medial_axis.core.settings import (
     Settings,
     Side,
 )
-from medial_axis.core.solid.reconstruction import reconstruct
+from medial_axis.core.shape.shape import Shape
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)

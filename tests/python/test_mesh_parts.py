@@ -10,8 +10,8 @@ from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.errors import DegenerateInputError
 from medial_axis.core.samples.mesh_parts import split
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from medial_axis.core.shape.shape import Shape
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from support import meshes, messy

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.samples.shape import Shape
+from medial_axis.core.mid_surface import even_quads, few_faces, quad_pairs
+from medial_axis.core.mid_surface import mid_surface as middle
+from medial_axis.core.mid_surface.carried_sheets import CarriedSheets
+from medial_axis.core.mid_surface.crossed_borders import crossings
+from medial_axis.core.mid_surface.even_triangles import divided, even_triangles
+from medial_axis.core.mid_surface.mid_surface import mid_surface
+from medial_axis.core.mid_surface.quad_pairs import least_sines
+from medial_axis.core.mid_surface.sheet_faces import SheetFaces
 from medial_axis.core.settings import MidSurfaceSettings, Settings
-from medial_axis.core.solid import even_quads, few_faces, quad_pairs
-from medial_axis.core.solid import mid_surface as middle
-from medial_axis.core.solid.carried_sheets import CarriedSheets
-from medial_axis.core.solid.crossed_borders import crossings
-from medial_axis.core.solid.even_triangles import divided, even_triangles
-from medial_axis.core.solid.mid_surface import mid_surface
-from medial_axis.core.solid.quad_pairs import least_sines
-from medial_axis.core.solid.sheet_faces import SheetFaces
+from medial_axis.core.shape.shape import Shape
 from support import mid_surfaces, topology
 from support.meshes import write_off
 from support.thick_meshes import block, lathe

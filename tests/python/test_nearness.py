@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from medial_axis.core.samples.nearness import near, nearest, sample_of_row
+from medial_axis.core.shape.nearness import near, nearest, sample_of_row
 
 
 @pytest.fixture(autouse=True)

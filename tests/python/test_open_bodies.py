@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.errors import DegenerateInputError
-from medial_axis.core.samples.outward_faces import OF_SHEETS, REPEATED, outward_shape
-from medial_axis.core.samples.shape import Shape
+from medial_axis.core.hollow.hollow import hollow
 from medial_axis.core.settings import (
     HollowSettings,
     SamplingMode,
@@ -14,8 +13,9 @@ from medial_axis.core.settings import (
     SidesFrom,
     ThickenSettings,
 )
-from medial_axis.core.solid.hollow import hollow
-from medial_axis.core.solid.thicken import thicken
+from medial_axis.core.shape.outward_faces import OF_SHEETS, REPEATED, outward_shape
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.thicken import thicken
 from support import meshes
 from support.thick_meshes import block
 

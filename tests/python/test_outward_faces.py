@@ -6,9 +6,9 @@ import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.machine import native
-from medial_axis.core.samples.outward_faces import outward_shape, reading_counts
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from medial_axis.core.shape.outward_faces import outward_shape, reading_counts
+from medial_axis.core.shape.shape import Shape
 from support import meshes, messy
 from support.same_axis import same_axis
 

@@ -14,8 +14,6 @@ from medial_axis.core.batch.thickness_work import ThicknessWork
 from medial_axis.core.errors import MedialAxisError
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.machine.job import run_task
-from medial_axis.core.samples.own_frame import in_own_frame, own_origin
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     BallSettings,
     CoverShapes,
@@ -28,6 +26,8 @@ from medial_axis.core.settings import (
     ThickenSettings,
     ThicknessSettings,
 )
+from medial_axis.core.shape.own_frame import in_own_frame, own_origin
+from medial_axis.core.shape.shape import Shape
 from support.distance import to_triangles
 from support.meshes import box, icosphere
 from support.thick_meshes import block, joined, lathe

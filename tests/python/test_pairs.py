@@ -11,10 +11,10 @@ from medial_axis.core.machine import native
 from medial_axis.core.machine.progress import Progress
 from medial_axis.core.samples import choose_samples, topology_loop
 from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode
+from medial_axis.core.shape.shape import Shape
 from support import thin_solids
 from support.readers import area_of
 from support.thick_meshes import shell

@@ -10,8 +10,8 @@ from medial_axis.core.axis.medial_axis import MedialAxis
 from medial_axis.core.errors import InvalidInputError, ReadError
 from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis
-from medial_axis.core.samples.shape import Shape
-from medial_axis.core.solid.reduce import reduce_axis, reduced_difference
+from medial_axis.core.rebuild.reduce import reduce_axis, reduced_difference
+from medial_axis.core.shape.shape import Shape
 from support import meshes
 
 pytestmark = pytest.mark.oracle

@@ -6,13 +6,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from medial_axis.core.files.read_shape import read_shape
-from medial_axis.core.samples.shape import Shape
+from medial_axis.core.rig.bones import bones_of
+from medial_axis.core.rig.names import limbs_of, names_of, target_of
+from medial_axis.core.rig.rig import compute_rig
+from medial_axis.core.rig.roll import flats_of
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
-from medial_axis.core.skeleton.bones import bones_of
-from medial_axis.core.skeleton.names import limbs_of, names_of, target_of
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.parts import Places
-from medial_axis.core.skeleton.rig import compute_rig
-from medial_axis.core.skeleton.roll import flats_of
 from medial_axis.core.skeleton.skeleton import Skeleton, skeleton_of
 from support.poses import turn
 

@@ -9,8 +9,8 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.scan import Scan, prepared, scan_warnings
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Prepare, Settings, SidesFrom
+from medial_axis.core.shape.shape import Shape
 from scipy.spatial import cKDTree
 from support.data import DATA
 from support.shapes import SHAPES, Sphere

@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
+from medial_axis.core.shape.shape import Shape
 from support.meshes import box
 
 

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.solid.sheet_chains import (
+from medial_axis.core.mid_surface.sheet_chains import (
     chains_of,
     nearest_along,
     runs_of,

@@ -11,25 +11,25 @@ from medial_axis.core.curves.net import Net
 from medial_axis.core.curves.rules import Loops, clear_loops, open_loops, prune
 from medial_axis.core.curves.spread import graph_of, spread
 from medial_axis.core.errors import DegenerateInputError, ExportError, InvalidInputError, ReadError
-from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
-from medial_axis.core.files.write_skeleton import export_skeleton
-from medial_axis.core.samples.nearness import nearest
-from medial_axis.core.samples.shape import Shape
+from medial_axis.core.rig.bones import Bones, Stubs, bones_of
+from medial_axis.core.rig.names import names_of
+from medial_axis.core.rig.rig import compute_rig
+from medial_axis.core.rig.weights import _share_with_parents, axis_weights, edges_of
 from medial_axis.core.settings import KeptLoops, SamplingMode, Settings, SkeletonSettings
-from medial_axis.core.skeleton.bones import Bones, Stubs, bones_of
+from medial_axis.core.shape.nearness import nearest
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.chords import keep_inside, kept_inside
 from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.skeleton.load_skeleton import load_skeleton
 from medial_axis.core.skeleton.middle import lead_through_middle
-from medial_axis.core.skeleton.names import names_of
 from medial_axis.core.skeleton.parts import Places
-from medial_axis.core.skeleton.rig import compute_rig
 from medial_axis.core.skeleton.simplify import kept_points
 from medial_axis.core.skeleton.skeleton import Skeleton
 from medial_axis.core.skeleton.warnings import skeleton_warnings
-from medial_axis.core.skeleton.weights import _share_with_parents, axis_weights, edges_of
+from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree

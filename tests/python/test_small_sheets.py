@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from medial_axis.core.axis.polygon_triangles import axis_triangles
-from medial_axis.core.solid.reduce import reduce_axis
+from medial_axis.core.rebuild.reduce import reduce_axis
 from support import crisp_solids
 from test_reduce import NO_EDGES, betti, grid
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.solid_warnings import solid_warnings
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes
 from support.thick_meshes import block

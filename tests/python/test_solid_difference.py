@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.samples.shape import Shape
-from medial_axis.core.solid.solid_difference import solid_difference
+from medial_axis.core.rebuild.solid_difference import solid_difference
+from medial_axis.core.shape.shape import Shape
 
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = np.array(

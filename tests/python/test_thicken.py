@@ -9,8 +9,6 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.machine.cache import CACHE
-from medial_axis.core.samples.shape import Shape
-from medial_axis.core.samples.triangles import unit_normals
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -19,12 +17,14 @@ from medial_axis.core.settings import (
     ThickenSettings,
     ThicknessSettings,
 )
-from medial_axis.core.solid import thickness
-from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
-from medial_axis.core.solid.thicken import _left_over, thicken
-from medial_axis.core.solid.thickness import measure_thickness
-from medial_axis.core.solid.thin_in_part import subdivided
-from medial_axis.core.solid.thin_parts import Patch, ThinParts
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.shape.triangles import unit_normals
+from medial_axis.core.thickness import thickness
+from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
+from medial_axis.core.thickness.thicken import _left_over, thicken
+from medial_axis.core.thickness.thickness import measure_thickness
+from medial_axis.core.thickness.thin_in_part import subdivided
+from medial_axis.core.thickness.thin_parts import Patch, ThinParts
 from support import thin_solids, topology
 from support.meshes import read, write_off
 from support.thick_meshes import block, ellipsoid, joined, shell

@@ -9,8 +9,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from medial_axis.core.errors import ExportError, InvalidInputError
-from medial_axis.core.files.write_thickness import export_thickness
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -20,9 +18,11 @@ from medial_axis.core.settings import (
     Settings,
     ThicknessSettings,
 )
-from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
-from medial_axis.core.solid.thickness import measure_thickness
-from medial_axis.core.solid.thin_parts import find_thin_parts
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
+from medial_axis.core.thickness.thickness import measure_thickness
+from medial_axis.core.thickness.thin_parts import find_thin_parts
+from medial_axis.core.thickness.write_thickness import export_thickness
 from support import inputs, meshes
 from support.plates import prism
 from support.thick_meshes import (

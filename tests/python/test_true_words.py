@@ -6,10 +6,10 @@ import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.verdict import Light, verdict
 from medial_axis.core.errors import DegenerateInputError
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.severe import Severe
-from medial_axis.core.solid.thickness import measure_thickness
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.thickness import measure_thickness
 from support.meshes import torus
 from support.thick_meshes import block, ellipsoid, joined, lathe
 

@@ -2,7 +2,7 @@
 """Folds beside rims: vertices inside of a sheet that lie beyond its rim come back, along the sheet."""
 
 import numpy as np
-from medial_axis.core.solid.unfolded_sheets import unfolded
+from medial_axis.core.mid_surface.unfolded_sheets import unfolded
 
 # A square round a vertex, as a fan.
 RING = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)], float)

@@ -10,9 +10,9 @@ from medial_axis.core.axis import topology
 from medial_axis.core.axis import verdict as verdicts
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.verdict import Light, in_short, plainly, verdict
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
 from medial_axis.core.severe import Severe
+from medial_axis.core.shape.shape import Shape
 from support.meshes import icosphere
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])

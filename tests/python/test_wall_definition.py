@@ -6,11 +6,11 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Settings, ThickenSettings, ThicknessSettings
-from medial_axis.core.solid.thicken import thicken
-from medial_axis.core.solid.thickness import measure_thickness
-from medial_axis.core.solid.thin_parts import find_thin_parts
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.thicken import thicken
+from medial_axis.core.thickness.thickness import measure_thickness
+from medial_axis.core.thickness.thin_parts import find_thin_parts
 from support import meshes
 from support.thick_meshes import block, joined, lathe, shell
 from support.wall_truth import slanted_plate, tube, turned, turned_part, walls

@@ -6,7 +6,6 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute, refilter
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     Between,
     SamplingMode,
@@ -14,7 +13,8 @@ from medial_axis.core.settings import (
     SidesFrom,
     ThicknessSettings,
 )
-from medial_axis.core.solid.thickness import measure_thickness
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness.thickness import measure_thickness
 from support.meshes import icosphere, write_off
 from support.thick_meshes import block, joined
 

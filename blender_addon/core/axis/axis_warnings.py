@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
-from ..samples.shape import Shape
 from ..settings import Settings, Side, SidesFrom
+from ..shape.shape import Shape
 from .medial_axis import MedialAxis
 from .solid_warnings import normals_look_inward, solid_warnings
 

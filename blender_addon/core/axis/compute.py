@@ -13,11 +13,11 @@ from ..machine.memory_limit import CURVE, WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.mesh_parts import MeshCounts, mesh_counts
-from ..samples.outward_faces import reading_counts
 from ..samples.rough_faces import SMOOTHING, smooth_faces
-from ..samples.shape import Shape
-from ..samples.solid_faces import triangles_of_places
 from ..settings import Form, Settings, SidesFrom
+from ..shape.outward_faces import reading_counts
+from ..shape.shape import Shape
+from ..shape.solid_faces import triangles_of_places
 from .axis_warnings import axis_warnings
 from .extract import extract
 from .medial_axis import MedialAxis

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..samples.nearness import nearest
+from ..shape.nearness import nearest
 from .cut import lowest_of_piece
 from .rows_of_axis import with_rows
 from .spacing import spacing_of

@@ -14,8 +14,8 @@ from ..samples.mesh_parts import split
 from .compute import Computation, compute_axis
 
 if TYPE_CHECKING:
-    from ..samples.shape import Shape
     from ..settings import Settings
+    from ..shape.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import differs_warning, sampling_warnings
-from ..samples.shape import Shape
 from ..samples.sides import cocone_warnings, look_inward, pole_warnings
 from ..samples.topology_loop import overlaps
 from ..settings import SamplingMode, Side, SidesFrom
 from ..severe import Severe
+from ..shape.shape import Shape
 
 _OF_POINTS_ALONE = (SidesFrom.TIGHT_COCONE, SidesFrom.POLES)
 

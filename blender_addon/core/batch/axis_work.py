@@ -15,9 +15,9 @@ from ..errors import MedialAxisError
 from ..files.write import export_axis, left_out
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
+from ..rebuild.reduce import reduced
 from ..settings import Settings
-from ..solid.reduce import reduced
+from ..shape.shape import Shape
 from .option_words import as_words
 
 

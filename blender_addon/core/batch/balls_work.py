@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..files.write_balls import as_figures, export_balls
+from ..cover.ball_cover import BallCover, cover_by_balls
+from ..cover.write_balls import as_figures, export_balls
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
 from ..settings import BallSettings, Settings
-from ..solid.ball_cover import BallCover, cover_by_balls
+from ..shape.shape import Shape
 from .option_words import as_words
 
 

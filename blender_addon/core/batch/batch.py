@@ -29,8 +29,8 @@ from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..samples.own_frame import in_own_frame
-from ..samples.shape import Shape
+from ..shape.own_frame import in_own_frame
+from ..shape.shape import Shape
 
 
 class Work(Protocol):

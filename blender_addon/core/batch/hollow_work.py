@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from ..files.write_triangles import export_triangles
+from ..hollow.hollow import Hollow, hollow
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
 from ..settings import HollowSettings
-from ..solid.hollow import Hollow, hollow
+from ..shape.shape import Shape
 from .option_words import as_words
 
 

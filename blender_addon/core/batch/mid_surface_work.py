@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..files.write_mid_surface import export_mid_surface
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
+from ..mid_surface.mid_surface import MidSurface, mid_surface
+from ..mid_surface.write_mid_surface import export_mid_surface
 from ..settings import MidSurfaceSettings, Settings
-from ..solid.mid_surface import MidSurface, mid_surface
+from ..shape.shape import Shape
 from .option_words import as_words
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ..errors import InvalidInputError
-from ..files.write_mid_surface import thick_path
+from ..mid_surface.write_mid_surface import thick_path
 from .batch import report_path
 
 

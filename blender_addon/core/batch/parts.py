@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..samples.mesh_parts import PartShape, split
-from ..samples.own_frame import in_own_frame
-from ..samples.shape import Shape
 from ..settings import Settings
+from ..shape.own_frame import in_own_frame
+from ..shape.shape import Shape
 from .batch import Item
 
 

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..files.write_skeleton import export_skeleton, holds_branches
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
 from ..settings import Settings, SkeletonSettings
+from ..shape.shape import Shape
 from ..skeleton.branches import measure_branches
 from ..skeleton.compute import Skeletonization, compute_skeleton
+from ..skeleton.write_skeleton import export_skeleton, holds_branches
 from ..small_matrices import times
 from .option_words import as_words
 

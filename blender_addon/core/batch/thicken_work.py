@@ -13,9 +13,9 @@ from ..files.json_figures import known
 from ..files.write_triangles import export_triangles
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
 from ..settings import Settings, ThickenSettings
-from ..solid.thicken import Thickened, thicken
+from ..shape.shape import Shape
+from ..thickness.thicken import Thickened, thicken
 from .option_words import as_words
 
 

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from ..files.write_thickness import export_thickness, summary_of
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..samples.shape import Shape
 from ..settings import Settings, ThicknessSettings
-from ..solid.measurement import Measurement
-from ..solid.thickness import measure_thickness
-from ..solid.thin_parts import find_thin_parts
+from ..shape.shape import Shape
+from ..thickness.measurement import Measurement
+from ..thickness.thickness import measure_thickness
+from ..thickness.thin_parts import find_thin_parts
+from ..thickness.write_thickness import export_thickness, summary_of
 from .option_words import as_words
 
 

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
-from ..samples.nearness import nearest
-from ..samples.triangles import unit_normals
+from ..shape.nearness import nearest
+from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..samples.analysed import AnalysedSamples
-    from ..samples.shape import Shape
+    from ..shape.shape import Shape
 
 _ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..samples.nearness import nearest
+from ..shape.nearness import nearest
 from .ends import Balls, balls_of
 from .spread import graph_of, spread
 

@@ -7,8 +7,8 @@ import os
 
 from ..axis.polygon_triangles import polygon_triangles
 from ..machine.memory_limit import MemoryLimit
-from ..samples.shape import Shape
 from ..settings import AboveLimit
+from ..shape.shape import Shape
 from .numpy_arrays import points_of_cloud
 from .read import import_points
 

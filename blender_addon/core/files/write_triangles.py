@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from ..samples.triangles import unit_normals
+from ..shape.triangles import unit_normals
 from ..small_matrices import placed
 from .extensions import extension_of
 from .rounding import check_stl

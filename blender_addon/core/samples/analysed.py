@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from ..machine.memory_limit import MemoryLimit
     from ..machine.progress import Progress
     from ..settings import Settings
+    from ..shape.shape import Shape
+    from ..shape.solid_faces import SolidFaces
     from .density import Density
-    from .shape import Shape
-    from .solid_faces import SolidFaces
     from .walls import Walls
 
 

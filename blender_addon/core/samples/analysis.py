@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 from ..machine import native
 from ..machine.beside import Beside
 from ..settings import SidesFrom
+from ..shape.outward_faces import check_some_left
+from ..shape.solid_faces import solid_faces
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
-from .outward_faces import check_some_left
 from .patches import patches_of
-from .solid_faces import solid_faces
 from .surface_samples import apart_of, are_paired
 from .walls import Places, Walls, find_walls, middles_of_faces
 

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from ..shape.nearness import near
+from ..shape.triangles import some_of, unit_normals
 from ..small_matrices import dot
-from .nearness import near
-from .triangles import some_of, unit_normals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 # The distance from the surface at which its two sides are tested, as a share of the spacing.
 _OFF = 1e-3

@@ -16,26 +16,26 @@ from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import SamplingMode, Settings, Side, SidesFrom
+from ..shape.check_faces import check_faces, check_not_flat
+from ..shape.outward_faces import outward_shape
+from ..shape.sharp_angle import sharp_angle_of
+from ..shape.wrapped_faces import without_wrap, wrap_reason, wrapped_shape
 from .analysed import AnalysedSamples, Request, Sides
 from .analysis import analyse_samples, analyse_vertices, used_by_sides
-from .check_faces import check_faces, check_not_flat
 from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
 from .mesh_parts import without_sheets
-from .outward_faces import outward_shape
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .scan import prepared
-from .sharp_angle import sharp_angle_of
 from .sides import check_not_a_sheet, decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 from .topology_loop import are_close, closed, closes
-from .wrapped_faces import without_wrap, wrap_reason, wrapped_shape
 
 if TYPE_CHECKING:
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 
 _WRAPPING = 0.4  # of the analysis

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ..machine.progress import Progress
     from ..settings import SamplingMode
+    from ..shape.shape import Shape
     from .analysed import AnalysedSamples, Sides
     from .scan import Scan
-    from .shape import Shape
     from .worst_doubt import WorstDoubt
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..machine import native
 
 if TYPE_CHECKING:
-    from .shape import Shape
+    from ..shape.shape import Shape
     from .surface_samples import FaceSamples
 
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import Settings
+from ..shape.nearness import near
 from ..small_matrices import length_of
-from .nearness import near
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

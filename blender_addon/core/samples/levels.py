@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from .solid_faces import SolidFaces
+    from ..shape.solid_faces import SolidFaces
 
 
 class Levels:

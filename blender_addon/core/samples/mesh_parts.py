@@ -12,16 +12,16 @@ import numpy as np
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
-from .bent_sheets import bent_sheets
-from .check_faces import check_not_flat
-from .outward_faces import OF_SHEETS, TURNED, outward_shape
+from ..shape.bent_sheets import bent_sheets
+from ..shape.check_faces import check_not_flat
+from ..shape.outward_faces import OF_SHEETS, TURNED, outward_shape
 from .sample_spacing import first_pass
 from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 MOST_ROWS = 1000  # of the table of parts
 

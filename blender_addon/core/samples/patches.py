@@ -6,14 +6,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..machine import native
-from .sharp_angle import sharp_angle_of
+from ..shape.sharp_angle import sharp_angle_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from ..settings import Settings
-    from .shape import Shape
+    from ..shape.shape import Shape
     from .surface_samples import FaceSamples
 
 

@@ -10,15 +10,15 @@ import numpy as np
 
 from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
+from ..shape.cube_faces import are_cubes
 from ..small_matrices import dot
-from .cube_faces import are_cubes
 from .scan import SOME
 from .surface_normals import cross
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 SMOOTHING = 0.02  # of the whole work, as few faces are noisy
 # In spacings: with more noise faces fold over each other, and their normals tell nothing.

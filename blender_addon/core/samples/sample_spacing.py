@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SamplingMode, Settings
+from ..shape.nearness import near
 from ..small_matrices import length_of
-from .nearness import near
 
 if TYPE_CHECKING:
+    from ..shape.shape import Shape
     from .analysed import AnalysedSamples
-    from .shape import Shape
 
 
 _MANY = 2**53  # samples; more than any memory holds

@@ -10,22 +10,22 @@ import numpy as np
 
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..settings import SamplingMode
+from ..shape.nearness import sample_of_row
+from ..shape.triangle_faces import TriangleFaces
 from ..small_matrices import dot
 from .choose_samples import begin
 from .density import Density, estimate
-from .nearness import sample_of_row
 from .rough_faces import SMOOTHING, smooth_faces
 from .sampling_warnings import sampling_warnings
-from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..machine.progress import Progress
     from ..settings import Settings
+    from ..shape.shape import Shape
     from .analysed import AnalysedSamples
     from .chosen import ChosenSamples
-    from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

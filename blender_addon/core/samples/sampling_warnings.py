@@ -10,17 +10,17 @@ import numpy as np
 
 from ..settings import SamplingMode
 from ..severe import Severe
+from ..shape.nearness import same_place
+from ..shape.outward_faces import are_left_out, reading_warnings
+from ..shape.own_frame import rounding_warning
 from ..small_matrices import placed
 from .density import percent
-from .nearness import same_place
-from .outward_faces import are_left_out, reading_warnings
-from .own_frame import rounding_warning
 from .scan import is_noisy, scan_warnings
 from .worst_doubt import words_of_place
 
 if TYPE_CHECKING:
+    from ..shape.shape import Shape
     from .chosen import ChosenSamples
-    from .shape import Shape
 
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..machine.progress import Progress
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 SOME = 0.1  # noise in spacings from which on the axis has flakes
 _TOO_MUCH = 2.5  # noise in spacings beyond which too few points tell the surface

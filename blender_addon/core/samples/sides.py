@@ -12,16 +12,16 @@ from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import Side, SidesFrom
 from ..severe import Severe
+from ..shape.nearness import same_place
+from ..shape.triangles import some_of
 from ..small_matrices import dot
 from .analysed import Sides
 from .buried_samples import outer_share, sides_of_faces
-from .nearness import same_place
-from .triangles import some_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 # A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1

@@ -11,14 +11,14 @@ import numpy as np
 from ..machine import native
 from ..portable_cosine import cosine
 from ..settings import SamplingMode, SidesFrom
+from ..shape.outward_faces import are_left_out
 from ..small_matrices import dot
-from .outward_faces import are_left_out
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..shape.shape import Shape
     from .chosen import ChosenSamples
-    from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

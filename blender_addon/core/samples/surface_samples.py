@@ -10,16 +10,16 @@ import numpy as np
 
 from ..errors import DegenerateInputError
 from ..machine import native
+from ..shape.outward_faces import check_some_left
+from ..shape.triangles import unit_normals
 from .buried_samples import find_bare, on_flat_faces
-from .outward_faces import check_some_left
 from .sample_spacing import mean_spacing
-from .triangles import unit_normals
 from .walls import Places
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 # The radius of a sample's disc, in spacings.
 _DISC = 0.727

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..settings import Settings
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95

@@ -16,8 +16,8 @@ import numpy as np
 from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
+from ..shape.nearness import nearest
 from .effort import EFFORT
-from .nearness import nearest
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt
 
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..shape.solid_faces import SolidFaces
     from .analysed import AnalysedSamples, Request, Sides
-    from .solid_faces import SolidFaces
 
 _LEVELS = 0.9  # the share of all work that ends with the first hierarchy
 _PASSES = 10  # the most passes with pairs

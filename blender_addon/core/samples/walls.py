@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
-from .triangles import some_of, unit_normals
+from ..shape.triangles import some_of, unit_normals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .shape import Shape
+    from ..shape.shape import Shape
 
 # Walls closer than this number of spacings get finer samples, until the walls are this number of spacings apart.
 _WANTED = 2.0

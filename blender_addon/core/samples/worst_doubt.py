@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..shape.nearness import nearest
 from ..small_matrices import placed
-from .nearness import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
+    from ..shape.shape import Shape
     from .analysed import AnalysedSamples
-    from .shape import Shape
 
 _LOOKED_AT = 500  # doubts are compared with each other, so of many an even selection is
 _AROUND = 4.0  # doubts within this number of spacings belong together

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This package turns the levels of the axis into a skeleton: branches with radii, parts, bones, weights."""
+"""This package turns the levels of the axis into a skeleton: branches with radii and the parts of a body."""

@@ -22,8 +22,8 @@ from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
-from ..samples.nearness import nearest
 from ..settings import KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
+from ..shape.nearness import nearest
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from ..curves.loaded_net import LoadedNet
     from ..machine.progress import Progress
     from ..samples.analysed import AnalysedSamples
-    from ..samples.shape import Shape
+    from ..shape.shape import Shape
 
 # This share of the work is done before the hierarchy begins.
 _ANALYSIS = 0.6

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from ..curves.depth import Depth
     from ..curves.net import Net
-    from ..samples.shape import Shape
+    from ..shape.shape import Shape
 
 _LEAST_STEP = 1e-5  # of a way: gaps between two bodies that are narrower are not seen
 _STEPS = 256  # a way that needs more runs along a face

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..samples.nearness import near, nearest
+from ..shape.nearness import near, nearest
 from ..small_matrices import length_of
 
 if TYPE_CHECKING:

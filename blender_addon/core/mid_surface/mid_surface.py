@@ -1,0 +1,416 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The middle surface of a thin solid: one sheet per wall, with its thickness (docs/mid_surface.md).
+
+The sheets of the medial axis between walls that face each other are chosen (`thin_sheets.py`), carried on to where
+they meet and to the walls at their rims (`carried_sheets.py`), and cleared of what they do not need.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..axis.compute import Computation, compute_axis
+from ..axis.polygon_triangles import polygon_triangles
+from ..errors import InvalidInputError
+from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.native import own_errors
+from ..machine.progress import Progress
+from ..samples.chosen import OfChosenSamples
+from ..samples.density import percent
+from ..samples.sample_spacing import mean_spacing
+from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, ThicknessSettings
+from ..shape.outward_faces import outward_shape
+from ..shape.sharp_angle import sharp_angle_of
+from ..shape.triangles import unit_normals
+from ..small_matrices import dot, length_of
+from ..thickness.face_lengths import are_enough
+from ..united import united
+from .carried_sheets import CarriedSheets, carried
+from .cut_out_plates import cut_out_plate
+from .even_quads import even_quads
+from .even_triangles import even_triangles
+from .few_faces import few_faces
+from .sheet_faces import SheetFaces
+from .sheet_walls import Walls
+from .thick_faces import ThickFaces, thick_faces
+from .thick_joints import joined_by_thick_parts
+from .thin_sheets import thin_sheets
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.chosen import ChosenSamples
+    from ..shape.shape import Shape
+    from .thin_sheets import ThinSheets
+
+_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
+_STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
+_FLAT = 1e-3  # a mean normal that is shorter than 1 by less than this is that of a flat sheet
+_SAME = 1e-7  # of the diagonal: vertices so close are one
+_NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
+_PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
+_CURVED = (
+    1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
+)
+_TRIANGLES = 4.0 / 3.0**0.5  # equilateral triangles for an area of one squared edge
+_MOST_FACES = 2_000_000  # more than that are refused before they are made
+_MOST = 0.99  # where less of the volume is sheet, a warning says so
+_DOUBLED = 1.05  # where they have more than this of it, one does, too
+
+
+@dataclass(frozen=True, eq=False)
+class MidSurface(OfChosenSamples):
+    """Sheets with thickness; those that meet share edges.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+        In the frame of the shape.
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`. All faces of a sheet turn the
+        same way.
+    part : (f,) int32
+        The sheet of each face, 0 to `sheets` - 1.
+    thickness : (f,) float64
+        Of the wall at the middle of each face.
+    of_vertices : (v,) float64
+        Of the wall at each vertex; where sheets meet, the thickness of the thickest.
+    sheets : int
+    share : float
+        The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
+    thick : ThickFaces or None
+        Where it was asked for, the faces of the solid that no sheet stands for.
+    shape : Shape
+    chosen : ChosenSamples
+    warnings : tuple of str
+    seconds : float
+    """
+
+    vertices: NDArray[np.float64]
+    face_offsets: NDArray[np.int32]
+    face_vertices: NDArray[np.int32]
+    part: NDArray[np.int32]
+    thickness: NDArray[np.float64]
+    of_vertices: NDArray[np.float64]
+    sheets: int
+    share: float
+    thick: ThickFaces | None
+    shape: Shape
+    chosen: ChosenSamples
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(c - 2 f, 3) the triangles of face after face."""
+        return polygon_triangles(self.vertices, self.face_offsets, self.face_vertices)
+
+    @property
+    def face_of_triangles(self) -> NDArray[np.int64]:
+        return np.repeat(np.arange(len(self.part)), np.diff(self.face_offsets) - 2)
+
+
+def mid_surface(
+    shape: Shape,
+    settings: Settings,
+    wanted: MidSurfaceSettings,
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> MidSurface:
+    """Turn a thin solid into sheets with thickness.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+        Its options of sampling count; the form is always clean, with crisp places, of the inside.
+    wanted : MidSurfaceSettings
+    progress : Progress, optional
+    limit : MemoryLimit
+
+    Raises
+    ------
+    InvalidInputError
+        The shape has no faces, or no thin walls.
+    NativeModuleError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    start = time.perf_counter()
+    if not len(shape.triangles):
+        raise InvalidInputError(
+            "Expected faces that bound a solid, found points alone; reconstruct a surface first"
+        )
+    shape = outward_shape(shape)
+    settings = replace(
+        settings,
+        form=Form.CLEAN,
+        mesh=Mesh.VORONOI,
+        crisp=True,
+        side=Side.INNER,
+        simplify=0.0,
+        erode=0.0,
+        spike=0.0,
+    )
+    # Its rims go out to the walls, so smoothing them first would only take them off their places.
+    found = compute_axis(shape, settings, progress, limit, relaxed=False)
+    if found.axis.structure is None or not found.axis.facets:
+        raise _nothing_thin(wanted)
+    thin = thin_sheets(found.axis, found.chosen.samples.patches, wanted.least_width)
+    if not len(thin.triangles):
+        raise _nothing_thin(wanted)
+    sheets = _welded(carried(thin, _walls(shape, settings)))
+    plate = cut_out_plate(shape, sheets)
+    if plate is not None and are_enough(shape, settings, ThicknessSettings()):
+        sheets = _welded(plate)
+        thin = replace(thin, parts=int(sheets.part.max()) + 1)
+    made = _simplified(sheets, wanted, progress)
+    return _with_thickness(made, sheets, thin, shape, found, wanted.keep_thick, start)
+
+
+def _nothing_thin(wanted: MidSurfaceSettings) -> InvalidInputError:
+    return InvalidInputError(
+        f"Expected walls at least {wanted.least_width:g} times as wide as they are thick, found none; lower Least "
+        "Width, or keep the solid"
+    )
+
+
+def _walls(shape: Shape, settings: Settings) -> Walls:
+    with own_errors() as module:
+        edges, convex, _ = module.BallFaces(
+            shape.points,
+            shape.triangles,
+            sharp_angle=sharp_angle_of(shape, settings),
+            sharp_edges=shape.sharp_edges,
+        ).creases()
+    return Walls(shape.points, shape.triangles, edges[~convex])
+
+
+def _welded(sheets: CarriedSheets) -> CarriedSheets:
+    """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
+    step = _SAME * length_of(np.ptp(sheets.vertices, axis=0))
+    ends = np.sort(
+        np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2).reshape(-1, 2),
+        axis=1,
+    )
+    along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
+    row = united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
+    triangles = row[sheets.triangles]
+    kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
+    used, triangles = np.unique(triangles[kept], return_inverse=True)
+    return CarriedSheets(
+        sheets.vertices[used],
+        triangles.reshape(-1, 3).astype(np.int32),
+        sheets.part[kept],
+        sheets.at_corners[kept],
+    )
+
+
+def _simplified(
+    sheets: CarriedSheets, asked: MidSurfaceSettings, progress: Progress | None
+) -> SheetFaces:
+    """The sheets with the faces that show their shape, or with even ones of a size."""
+    size = asked.size
+    wanted = len(sheets.vertices)
+    normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
+    area = 0.5 * float(doubled.sum())
+    if size > 0.0:
+        _check_size(size, area, asked.quads)
+    length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
+    if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
+        wanted = min(wanted, int(_PER_AREA * area / length**2) + 1)
+    faces = few_faces(sheets, wanted, progress)
+    if size <= 0.0:
+        return faces
+    if asked.quads:
+        return even_quads(faces, size, progress and progress.part())
+    vertices, triangles, part = even_triangles(
+        faces.vertices, faces.triangles, faces.part[faces.of], size, progress and progress.part()
+    )
+    offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
+    return SheetFaces(vertices, offsets, triangles.ravel(), part)
+
+
+def _check_size(size: float, area: float, quads: bool) -> None:
+    """Raise InvalidInputError where a size makes more faces than anyone can use."""
+    each = 1.0 if quads else _TRIANGLES
+    number = each * (area / size) / size  # not the square of the size, which may be 0
+    if number > _MOST_FACES:
+        least = (each * area / _MOST_FACES) ** 0.5
+        raise InvalidInputError(
+            f"Expected a Size that makes at most {_MOST_FACES:,} faces, found {size:.3g}, which makes about "
+            f"{number:.3g}; choose {least:.3g} or more"
+        )
+
+
+def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
+    """Whether a sheet is not flat, given (t, 3) normals that are as long as triangles are large."""
+    total = np.zeros((int(sheets.part.max()) + 1, 3))
+    np.add.at(total, sheets.part, vectors)
+    whole = np.bincount(sheets.part, np.linalg.norm(vectors, axis=1))
+    return bool((np.linalg.norm(total, axis=1) < (1.0 - _FLAT) * whole).any())
+
+
+def _with_thickness(
+    made: SheetFaces,
+    sheets: CarriedSheets,
+    thin: ThinSheets,
+    shape: Shape,
+    found: Computation,
+    keep_thick: bool,
+    start: float,
+) -> MidSurface:
+    lengths = _lengths(sheets, thin.parts)
+    made = _with_volume(made, lengths(_centres(made)[0], made.part))
+    centre, whole = _centres(made)
+    triangles, thickness = made.triangles, lengths(centre, made.part)
+    corner_part = np.repeat(made.part, np.diff(made.offsets))
+    of_vertices = np.zeros(len(made.vertices))
+    np.maximum.at(of_vertices, made.corners, lengths(made.vertices[made.corners], corner_part))
+    share = float((whole * thickness).sum()) / shape.volume if shape.volume > 0.0 else float("nan")
+    spacing = mean_spacing(shape.area, len(found.chosen.samples.points))
+    left_out = _left_out(share, float(thickness.min()), spacing)
+    numbers, part = np.unique(made.part, return_inverse=True)
+    return MidSurface(
+        made.vertices,
+        made.offsets,
+        made.corners,
+        part.reshape(-1).astype(np.int32),
+        thickness,
+        of_vertices,
+        len(numbers),
+        share,
+        thick_faces(shape, made, lengths) if keep_thick else None,
+        shape,
+        found.chosen,
+        (*found.warnings, *left_out, *_torn(triangles, found, thin)),
+        time.perf_counter() - start,
+    )
+
+
+def _centres(made: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(f, 3) the middle of each face, and (f,) its area."""
+    count, triangles = len(made.part), made.triangles
+    areas = 0.5 * unit_normals(made.vertices[triangles])[1]
+    whole = np.asarray(np.bincount(made.of, areas, count), np.float64)
+    middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
+    sums = [np.bincount(made.of, column, count) for column in middles.T]
+    centre = np.column_stack(sums).astype(np.float64)
+    return centre / np.where(whole > 0.0, whole, 1.0)[:, None], whole
+
+
+def _with_volume(made: SheetFaces, thickness: NDArray[np.float64]) -> SheetFaces:
+    """The faces without sheets that have no thickness anywhere: crumbs of rims that lie in the surface of the solid."""
+    thick = np.zeros(int(made.part.max()) + 1, bool)
+    thick[made.part[thickness > 0.0]] = True
+    kept = thick[made.part]
+    if kept.all() or not kept.any():
+        return made
+    sizes = np.diff(made.offsets)
+    used, corners = np.unique(made.corners[np.repeat(kept, sizes)], return_inverse=True)
+    offsets = np.concatenate(([0], np.cumsum(sizes[kept]))).astype(np.int32)
+    return SheetFaces(
+        made.vertices[used], offsets, corners.reshape(-1).astype(np.int32), made.part[kept]
+    )
+
+
+def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
+    """A sentence where area times thickness is not the volume."""
+    if share > _DOUBLED:
+        return (
+            f"the sheets have {percent(share)} of the volume: where walls meet, both count, but some may also lie "
+            "twice or not in the middle; more samples may help",
+        )
+    if share >= _MOST:
+        return ()
+    if least >= spacing:
+        return (
+            f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides "
+            "what counts as thin",
+        )
+    return (
+        f"the sheets have {percent(share)} of the volume; what is not thin is left out, as Least Width decides, and "
+        f"so are tips that are narrower than samples are apart, {spacing:.2g}; more samples reach farther into these",
+    )
+
+
+def _torn(triangles: NDArray[np.int32], found: Computation, thin: ThinSheets) -> tuple[str, ...]:
+    pieces, level = _pieces(triangles), found.axis.level
+    if level is None or pieces <= level.betti[0]:
+        return ()
+    if pieces - joined_by_thick_parts(found.axis, thin) <= level.betti[0]:
+        return (
+            f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: what joins them is not thin, and is "
+            "left out",
+        )
+    return (
+        f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: sheets that should meet do not; more "
+        "samples may help",
+    )
+
+
+def _pieces(triangles: NDArray[np.int32]) -> int:
+    label = united(int(triangles.max()) + 1, np.concatenate((triangles[:, :2], triangles[:, 1:])))
+    return len(np.unique(label[triangles[:, 0]]))
+
+
+def _lengths(
+    sheets: CarriedSheets, parts: int
+) -> Callable[[NDArray[np.float64], NDArray[np.int32]], NDArray[np.float64]]:
+    """The function of places and their sheets that returns the thickness there.
+
+    It is that of the nearest corner. In a sheet of uneven thickness it changes from there as around that corner.
+    """
+    part = np.repeat(sheets.part, 3)
+    places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
+    slopes, uneven = _slopes_at_corners(sheets), _are_uneven(sheets, parts)
+
+    def lengths(queries: NDArray[np.float64], of: NDArray[np.int32]) -> NDArray[np.float64]:
+        found = np.zeros(len(queries))
+        for number in range(parts):
+            rows, sites = np.flatnonzero(of == number), np.flatnonzero(part == number)
+            if not len(rows):
+                continue
+            with own_errors() as module:
+                nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
+            at = sites[nearest]
+            found[rows] = values[at]
+            if uneven[number]:
+                more = dot(slopes[at], queries[rows] - places[at])
+                found[rows] = np.clip(found[rows] + more, 0.0, values[sites].max())
+        return found
+
+    return lengths
+
+
+def _are_uneven(sheets: CarriedSheets, parts: int) -> NDArray[np.bool_]:
+    """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
+    area = unit_normals(sheets.vertices[sheets.triangles])[1]
+    thickness = sheets.at_corners.mean(axis=1)
+    volume = np.bincount(sheets.part, area * thickness, parts)
+    whole = np.bincount(sheets.part, area, parts)
+    mean = volume / np.where(whole > 0.0, whole, 1.0)
+    apart = np.abs(thickness - mean[sheets.part])
+    return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
+
+
+def _slopes_at_corners(sheets: CarriedSheets) -> NDArray[np.float64]:
+    """(3 t, 3) the slope of the thickness around each corner: the mean, by area, of the triangles of its sheet."""
+    key = sheets.part[:, None] * np.int64(len(sheets.vertices)) + sheets.triangles
+    pairs, row = np.unique(key, return_inverse=True)
+    row = row.reshape(key.shape)
+    corners = sheets.vertices[sheets.triangles]
+    normals, doubled = unit_normals(corners)
+    opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+    each = (np.cross(normals[:, None], opposite) * sheets.at_corners[:, :, None]).sum(axis=1)
+    sums, whole = np.zeros((len(pairs), 3)), np.zeros(len(pairs))
+    np.add.at(sums, row, each[:, None])
+    np.add.at(whole, row, doubled[:, None])
+    slopes = sums / np.where(whole > 0.0, whole, np.inf)[:, None]
+    steep = np.sqrt(dot(slopes, slopes))
+    slopes *= (_STEEPEST / np.maximum(steep, _STEEPEST))[:, None]
+    return slopes[row.ravel()]

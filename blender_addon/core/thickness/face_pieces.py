@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces of a shape cut into pieces about as large as the triangles between samples."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..small_matrices import times
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.walls import Walls
+    from ..shape.shape import Shape
+
+
+def face_pieces(
+    shape: Shape, some: NDArray[np.intp], places: Walls
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Cut some faces into congruent pieces, each about as large as an equilateral triangle between samples.
+
+    Parameters
+    ----------
+    shape : Shape
+    some : (k,) int
+        Distinct faces, each with a place.
+    places : Walls
+        The spacing of the samples on the faces.
+
+    Returns
+    -------
+    points : (n, 3) float64
+    triangles : (p, 3) int32
+        Rows of the points; they turn as their faces do.
+    faces : (p,) int32
+        The face of each piece.
+    """
+    cuts = _cuts(shape, some, places)
+    points, triangles, of_pieces, count = [], [], [], 0
+    for cut in np.unique(cuts).tolist():
+        group = some[cuts == cut]
+        shares, pieces = _lattice(cut)
+        corners = shape.points[shape.triangles[group]].swapaxes(1, 2)
+        points.append(times(corners, shares).swapaxes(1, 2).reshape(-1, 3))
+        start = count + len(shares) * np.arange(len(group))
+        triangles.append((pieces + start[:, None, None]).reshape(-1, 3))
+        of_pieces.append(np.repeat(group, len(pieces)))
+        count += len(points[-1])
+    return (
+        np.concatenate(points),
+        np.concatenate(triangles).astype(np.int32),
+        np.concatenate(of_pieces).astype(np.int32),
+    )
+
+
+def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> NDArray[np.int64]:
+    """(m,) the number of parts into which each side of a face is cut."""
+    a, b, c = shape.points[shape.triangles[faces]].transpose(1, 0, 2)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    number, total = np.zeros((2, len(shape.triangles)))
+    np.add.at(number, places.faces, 1.0)
+    np.add.at(total, places.faces, places.spacing)
+    spacing = total[faces] / number[faces]
+    return np.maximum(1, np.ceil(np.sqrt(area / (math.sqrt(3.0) / 4)) / spacing)).astype(np.int64)
+
+
+def _lattice(cut: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """(n, 3) shares of the corners of a triangle at the points of a lattice in it, and (cut^2, 3) its pieces."""
+    i, j = np.nonzero(np.add.outer(np.arange(cut + 1), np.arange(cut + 1)) <= cut)
+    row = np.full((cut + 2, cut + 2), -1)
+    row[i, j] = np.arange(len(i))
+    below, above = i + j < cut, i + j < cut - 1
+    up = np.stack((row[i, j], row[i + 1, j], row[i, j + 1]), axis=1)[below]
+    down = np.stack((row[i + 1, j], row[i + 1, j + 1], row[i, j + 1]), axis=1)[above]
+    shares = np.stack((cut - i - j, i, j), axis=1) / cut
+    return shares, np.concatenate((up, down))

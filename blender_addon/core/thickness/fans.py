@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The smooth fans of a surface: the corners of triangles round a vertex that no sharp edge divides.
+
+A vertex inside a smooth part has one fan, one on an edge of a plate has two, a corner of a cube three. Each has a
+normal of its own, so walls that meet at a vertex can be moved by different amounts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..shape.triangles import unit_normals
+from ..small_matrices import shortest_solutions
+from ..united import united
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+# Directions in which the normals at a vertex differ by less than this share are left alone: a vertex between two
+# nearly opposite walls, as at the tip of a blade, would run far away to offset both.
+_OPPOSITE = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Fans:
+    """The fans of a triangle mesh.
+
+    Parameters
+    ----------
+    of_corners : (m, 3) int64
+        The fan of each corner of each triangle.
+    vertex : (k,) int64
+    normal : (k, 3) float64
+        Unit, outward; zero where all triangles are without area.
+    triangle : (k,) int64
+        One of the triangles of each fan.
+    """
+
+    of_corners: NDArray[np.int64]
+    vertex: NDArray[np.int64]
+    normal: NDArray[np.float64]
+    triangle: NDArray[np.int64]
+
+    def of_smooth_parts(self, sharp: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """(k,) the fans of parts of the surface that no sharp edge bounds; `sharp` is as of `fans_of`."""
+        pairs = np.concatenate((self.of_corners[:, :2], self.of_corners[:, 1:]))
+        part = united(len(self.vertex), pairs)
+        at_sharp = np.isin(self.vertex, sharp)
+        return ~np.isin(part, part[at_sharp])
+
+    def spread(
+        self, points: NDArray[np.float64], amount: NDArray[np.float64], slope: float
+    ) -> NDArray[np.float64]:
+        """(k,) the least amounts nowhere below the given ones that fall by `slope` per length along the fans."""
+        one, two = self.of_corners.ravel(), np.roll(self.of_corners, -1, axis=1).ravel()
+        ends = points[self.vertex[one]], points[self.vertex[two]]
+        fall = slope * np.linalg.norm(ends[0] - ends[1], axis=1)
+        start, end = np.concatenate((one, two)), np.concatenate((two, one))
+        fall = np.concatenate((fall, fall))
+        found, changed = amount.copy(), amount > 0.0
+        while changed.any():
+            front = changed[start]
+            before = found.copy()
+            np.maximum.at(found, end[front], found[start[front]] - fall[front])
+            changed = found > before
+        return found
+
+    def offsets(self, vertices: int, amount: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(vertices, 3) the shortest moves that offset each fan by its amount along its normal."""
+        matrix, wanted = np.zeros((vertices, 3, 3)), np.zeros((vertices, 3))
+        np.add.at(matrix, self.vertex, self.normal[:, :, None] * self.normal[:, None, :])
+        np.add.at(wanted, self.vertex, amount[:, None] * self.normal)
+        rows = np.flatnonzero(wanted.any(axis=1))
+        moves = np.zeros((vertices, 3))
+        moves[rows] = shortest_solutions(matrix[rows], wanted[rows], _OPPOSITE)
+        return moves
+
+
+def fans_of(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], sharp: NDArray[np.int32]
+) -> Fans:
+    """The fans of triangles.
+
+    Parameters
+    ----------
+    points : (v, 3) float64
+    triangles : (m, 3) int32
+        Outward; triangles that meet have the same rows there.
+    sharp : (e, 2) int32
+        The ends of the sharp edges, in any order.
+    """
+    label = united(triangles.size, _corners_beside(triangles, sharp, len(points)))
+    first, fan = np.unique(label, return_inverse=True)
+    of_corners = fan.reshape(triangles.shape)
+    normals, doubled = unit_normals(points[triangles])
+    total = np.zeros((len(first), 3))
+    np.add.at(total, of_corners, (normals * doubled[:, None])[:, None, :])
+    length = np.linalg.norm(total, axis=1)
+    return Fans(
+        of_corners=of_corners,
+        vertex=triangles.ravel()[first].astype(np.int64),
+        normal=total / np.where(length > 0.0, length, 1.0)[:, None],
+        triangle=first // 3,
+    )
+
+
+def _corners_beside(
+    triangles: NDArray[np.int32], sharp: NDArray[np.int32], count: int
+) -> NDArray[np.int64]:
+    """(p, 2) corners, counted through all triangles, at the same end of an edge that two triangles share smoothly."""
+    corner = np.arange(triangles.size).reshape(triangles.shape)
+    following = np.roll(triangles, -1, axis=1).astype(np.int64)
+    low, high = np.minimum(triangles, following), np.maximum(triangles, following)
+    key = (low * count + high).ravel()
+    order = np.argsort(key, kind="stable")
+    unique, begin, uses = np.unique(key[order], return_index=True, return_counts=True)
+    sharp_keys = np.sort(sharp, axis=1).astype(np.int64) @ np.array([count, 1])
+    begin = begin[(uses == 2) & ~np.isin(unique, sharp_keys)]
+    one, two = order[begin], order[begin + 1]
+    after = np.roll(corner, -1, axis=1).ravel()
+    same_way = triangles.ravel()[one] == triangles.ravel()[two]
+    other_start, other_end = (
+        np.where(same_way, two, after[two]),
+        np.where(same_way, after[two], two),
+    )
+    starts, ends = np.column_stack((one, other_start)), np.column_stack((after[one], other_end))
+    return np.concatenate((starts, ends))

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The way from the measured surface back to the faces of the shape: the triangle that represents each face."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..shape.shape import Shape
+
+
+def face_of_triangles(
+    triangles: NDArray[np.int32], at_edge: NDArray[np.bool_], faces: NDArray[np.int32] | None
+) -> NDArray[np.int32]:
+    """(f,) the face of the shape in which all corners of a measured triangle lie; -1 where there is none.
+
+    Corners on sharp edges lie in two faces and do not count.
+
+    Parameters
+    ----------
+    triangles : (f, 3) int32
+        The measured surface, rows of the samples.
+    at_edge : (n,) bool
+        Samples on a sharp edge.
+    faces : (n,) int32 or None
+        The face on which each sample lies; -1 where there is none.
+    """
+    if faces is None:
+        return np.full(len(triangles), -1, np.int32)
+    face = faces.astype(np.int64)
+    face[at_edge] = -1
+    corners = face[triangles]
+    highest = corners.max(axis=1)
+    same = (corners == highest[:, None]) | (corners < 0)
+    return np.where(same.all(axis=1), highest, -1).astype(np.int32)
+
+
+def thinnest_of_faces(
+    shape: Shape,
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    lengths: NDArray[np.float64],
+    at_edge: NDArray[np.bool_],
+    inside: NDArray[np.int32],
+) -> NDArray[np.int32]:
+    """(m,) for each face of the shape the thinnest triangle of the measured surface that lies in it.
+
+    For a face without such a triangle it is the thinnest triangle at the sample nearest to the middle of the face, and
+    -1 for all faces where there is no measured surface. Triangles without corners on sharp edges are preferred.
+
+    Parameters
+    ----------
+    shape : Shape
+    points : (n, 3) float64
+        The samples.
+    triangles : (f, 3) int32
+        The measured surface, rows of the samples.
+    lengths : (f,) float64
+        The thickness of each triangle.
+    at_edge : (n,) bool
+        Samples on a sharp edge.
+    inside : (f,) int32
+        As `face_of_triangles` returns it.
+    """
+    faces = shape.triangles
+    thinnest = np.full(len(faces), -1, np.int32)
+    if not len(faces) or not len(triangles):
+        return thinnest
+    order = np.argsort(-lengths, kind="stable").astype(np.int32)  # the thinnest last
+    inside = inside[order]
+    by_edge = at_edge[triangles[order]].any(axis=1)
+    for some in (by_edge & (inside >= 0), ~by_edge & (inside >= 0)):
+        thinnest[inside[some]] = order[some]  # the preferred ones overwrite the others
+    bare = np.flatnonzero(thinnest < 0)
+    at_sample = np.full(len(points), -1, np.int32)
+    at_sample[triangles[order]] = order[:, None]
+    middles = shape.points[faces[bare]].mean(axis=1)
+    used = np.flatnonzero(at_sample >= 0)
+    with native.own_errors() as module:
+        nearest = module.nearest(points[used], middles)
+    thinnest[bare] = at_sample[used[nearest]]
+    return thinnest

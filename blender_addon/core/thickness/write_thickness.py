@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module writes thickness as `.csv`, `.html`, `.json` and `.ply` files (docs/formats.md).
+
+A file appears whole or not at all. Numbers in text have 17 significant digits; a missing length is infinite in .csv
+and .ply, and null in .json.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from ..axis.colours import colours
+from ..files.extensions import extension_of
+from ..files.json_figures import known
+from ..files.whole_file import write_whole
+from ..shape.nearness import same_place
+from ..small_matrices import placed
+from .measurement import Measurement
+from .picture import encoded
+from .thickness_colours import scale_of
+from .thickness_page import page_of
+from .thin_parts import ThinParts
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_CHUNK = 1 << 16  # so many rows are formatted at once
+
+
+def export_thickness(
+    found: Measurement,
+    parts: ThinParts,
+    path: str | os.PathLike,
+    unit: str = "",
+    title: str = "",
+) -> Path:
+    """Write a measurement in world coordinates; the extension of `path` chooses the format.
+
+    Parameters
+    ----------
+    found : Measurement
+    parts : ThinParts
+        The thin parts of the measurement.
+    path : path of the file; its folder must exist. A file of that name is replaced.
+    unit : str
+        The unit of lengths, which .json and .html state; "" if it is unknown.
+    title : str
+        The name of what was measured, for .html; by default that of the file.
+
+    Returns
+    -------
+    path : Path
+        The file that was written, with links resolved.
+
+    Raises
+    ------
+    ExportError
+        The extension is unknown, or the system refused to write; an old file is then unchanged.
+    """
+    write = THICKNESS_FORMATS[extension_of(path, THICKNESS_FORMATS)]
+    labels = _Labels(unit, title or Path(path).stem)
+    return write_whole(path, lambda stream: write(found, parts, labels, stream))
+
+
+@dataclass(frozen=True)
+class _Labels:
+    unit: str
+    title: str
+
+
+def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str, Any]:
+    """Return the content of `.json`: lengths are in `unit`, areas in its square; None means that there is no length."""
+    place = _mover(found)
+    return {
+        "minimum": known(parts.minimum),
+        "minimum_parallel": known(found.between_parallel),
+        "limit": parts.limit,
+        "unit": unit or None,
+        "area_below": parts.area,
+        "share_below": parts.share,
+        "share_of": "surface",
+        "share_unmeasured": found.unmeasured,
+        "between": found.settings.between.name.lower(),
+        "patches": [
+            {
+                "place": place(np.array([patch.place]))[0].tolist(),
+                "area": patch.area,
+                "minimum": known(patch.minimum),
+                "lowest": known(patch.lowest),
+            }
+            for patch in parts.patches
+        ],
+        "samples": found.samples,
+        "sampled": found.chosen.reason,
+        "inside": str(found.chosen.sides),
+        "normals": found.normals,
+        "noise": found.noise,
+        "warnings": [str(warning) for warning in found.warnings],
+    }
+
+
+def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """Return the function that moves points of the shape to their places in the world."""
+    frame = found.shape.frame
+    if np.array_equal(frame, np.identity(4)):
+        return lambda points: points
+    return lambda points: placed(points, frame)
+
+
+def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
+    stream.write(b"vertex,x,y,z,thickness,filled\n")
+    beside = _beside_vertices(found)
+    points = _mover(found)(np.concatenate((found.shape.points, found.points[beside])))
+    lengths = np.concatenate((found.of_vertices, found.lengths[beside]))
+    filled = np.append(found.are_filled[found.row_of_vertices], found.are_filled[beside])
+    vertices = np.arange(len(points))
+    vertices[len(found.shape.points) :] = -1
+    for start in range(0, len(points), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        rows = np.column_stack([points[part], lengths[part], filled[part]]).tolist()
+        text = "".join(
+            f"{vertex},{x:.17g},{y:.17g},{z:.17g},{length:.17g},{of_others:.0f}\n"
+            for vertex, (x, y, z, length, of_others) in zip(
+                vertices[part].tolist(), rows, strict=True
+            )
+        )
+        stream.write(text.encode("ascii"))
+
+
+def _beside_vertices(found: Measurement) -> NDArray[np.bool_]:
+    """(n,) whether each point of the measured surface is no vertex of the shape."""
+    count = len(found.shape.points)
+    place = same_place(np.concatenate((found.shape.points, found.points)))
+    return ~np.isin(place[count:], place[:count])
+
+
+def _write_json(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:
+    text = json.dumps(summary_of(found, parts, labels.unit), indent=1, ensure_ascii=False) + "\n"
+    stream.write(text.encode("utf-8"))
+
+
+def _write_ply(found: Measurement, parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
+    """Write the measured surface: its samples and triangles, with lengths, colours and patches."""
+    header = f"""ply
+format binary_little_endian 1.0
+comment thickness: length at each vertex, inf where there is none; patch of each face, -1 where it is not thin
+element vertex {len(found.points)}
+property double x
+property double y
+property double z
+property double thickness
+property uchar red
+property uchar green
+property uchar blue
+element face {len(found.triangles)}
+property list uchar int vertex_indices
+property int patch
+end_header
+"""
+    stream.write(header.encode("ascii"))
+    vertices = np.empty(
+        len(found.points), [("place", "<f8", 3), ("thickness", "<f8"), ("colour", "u1", 3)]
+    )
+    vertices["place"], vertices["thickness"] = _mover(found)(found.points), found.lengths
+    positions = scale_of(found, parts.limit).positions(found.lengths)
+    linear = colours(positions, 0.0, 1.0)[:, :3].astype(np.float64)
+    vertices["colour"] = np.round(255.0 * encoded(linear)).astype(np.uint8)
+    stream.write(vertices.tobytes())
+    faces = np.empty(len(found.triangles), [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")])
+    faces["n"], faces["corners"], faces["patch"] = 3, found.triangles, parts.patch_of_triangles
+    stream.write(faces.tobytes())
+
+
+def _write_html(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:
+    points = _mover(found)(found.points)
+    stream.write(page_of(found, parts, labels.title, labels.unit, points).encode("utf-8"))
+
+
+THICKNESS_FORMATS: dict[str, Callable[[Measurement, ThinParts, _Labels, BinaryIO], None]] = {
+    ".csv": _write_csv,
+    ".html": _write_html,
+    ".json": _write_json,
+    ".ply": _write_ply,
+}
