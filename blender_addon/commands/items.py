@@ -44,8 +44,8 @@ def check_outputs(wanted: argparse.Namespace) -> None:
 
 
 def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
-    """Return the files of a run, of which an output may have another one beside it."""
-    return Files(inputs, getattr(wanted, "keep_thick", False))
+    """Return the files of a run."""
+    return Files(inputs, wanted.work.beside)
 
 
 def _is_file(path: str) -> bool:

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 import shlex
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 
 from ..core.batch.frames import has_number, output_path, parse_frames
@@ -16,26 +15,17 @@ from ..core.files.extensions import extension_of
 from ..core.files.names import is_folder
 from ..core.files.read import READERS
 from ..core.machine.memory_limit import MemoryLimit
+from ..core.products.product import PRODUCTS, product
 from ..core.settings import Division
 from .items import inside_blender
-
-# The modules by the first word of the command; only the one that is used is imported.
-_COMMANDS = {
-    "thickness": "thickness",
-    "thicken": "thicken",
-    "skeleton": "skeleton",
-    "balls": "balls",
-    "midsurface": "mid_surface",
-    "hollow": "hollow",
-}
+from .words import parser_of
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
     """Return what the words ask for: work, inputs, output, frames, switches. SystemExit where they are wrong."""
-    named = bool(words) and words[0] in _COMMANDS
-    command = import_module(f".{_COMMANDS[words[0]] if named else 'axis'}", __package__)
-    parser = command.parser()
-    words = _with_paths_behind_dashes(words[1:] if named else words)
+    word = words[0] if words and words[0] in PRODUCTS else ""
+    parser = parser_of(word, product(word))
+    words = _with_paths_behind_dashes(words[1:] if word else words)
     wanted = parser.parse_intermixed_args(words)
     try:
         if more := shlex.split(wanted.options):
@@ -55,7 +45,8 @@ def _with_paths_behind_dashes(words: Sequence[str]) -> list[str]:
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
-    wanted.work, wanted.limit = wanted.work_from(wanted), settings_from(wanted, MemoryLimit)
+    wanted.work = wanted.record.from_words(wanted)
+    wanted.limit = settings_from(wanted, MemoryLimit)
     wanted.division = settings_from(wanted, Division)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if "" in wanted.paths:
@@ -65,7 +56,7 @@ def _complete(wanted: argparse.Namespace) -> None:
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    extension_of(output, wanted.known)
+    extension_of(output, tuple(wanted.record.formats))
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong

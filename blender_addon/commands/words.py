@@ -4,49 +4,45 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable
 
 from .. import __version__
-from ..core.batch.batch import Work
 from ..core.batch.option_words import add_options
 from ..core.machine.memory_limit import MemoryLimit
+from ..core.products.product import Product
 from ..core.settings import Division
 
+_CODES = {
+    0: "all is there",
+    1: "something failed",
+    2: "wrong usage",
+    3: "an input cannot be used",
+    4: "cancelled",
+    141: "nobody reads the results any more",
+}
 
-def command_parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:
-    """The parser of a command with its inputs and its output; `epilog` explains files and exit codes."""
+
+def parser_of(word: str, record: type[Product]) -> argparse.ArgumentParser:
+    """The parser of a product: its own options, and what all products share; `word` is of PRODUCTS."""
+    name = f"medial_axis {word}".rstrip()
+    codes = sorted((_CODES | dict(record.codes)).items())
     parser = argparse.ArgumentParser(
         prog=name,
         usage=f"{name} INPUT [INPUT ...] OUTPUT [options]",
-        description=description,
-        epilog=epilog,
+        description=record.description,
+        epilog="\n".join(
+            [record.help, "exit codes:", *(f"  {code:<5}{what}" for code, what in codes)]
+        ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("paths", nargs="+", metavar="PATH", help="INPUT ... OUTPUT, see below")
+    parser.set_defaults(record=record)
+    record.add_words(parser)
+    _add_files(parser, record)
     return parser
 
 
-def add_files(
-    parser: argparse.ArgumentParser,
-    extensions: Iterable[str],
-    usual: str,
-    work_from: Callable[[argparse.Namespace], Work],
-) -> argparse._ArgumentGroup:
-    """Adds what all commands share, and says what files and work they have; returns the group of the files.
-
-    Parameters
-    ----------
-    parser : ArgumentParser
-    extensions : iterable of str
-        Of the files that the command writes, such as ".ma".
-    usual : str
-        The format of files in a folder, such as "ma".
-    work_from : callable
-        Returns the work that the arguments of a command line ask for.
-    """
-    known = tuple(extensions)
-    parser.set_defaults(known=known, work_from=work_from)
+def _add_files(parser: argparse.ArgumentParser, record: type[Product]) -> None:
     add_options(parser.add_argument_group("memory"), MemoryLimit)
     add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
@@ -59,9 +55,9 @@ def add_files(
     )
     files.add_argument(
         "--format",
-        choices=[extension[1:] for extension in known],
-        default=usual,
-        help=f"of files in a folder OUTPUT (default: {usual})",
+        choices=[extension[1:] for extension in record.formats],
+        default=record.usual,
+        help=f"of files in a folder OUTPUT (default: {record.usual})",
     )
     files.add_argument(
         "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
@@ -75,4 +71,3 @@ def add_files(
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
-    return files

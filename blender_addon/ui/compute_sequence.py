@@ -12,12 +12,12 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
 from ..bridge.sequence_objects import AXES, SKELETONS, sequences, write_sequence
-from ..core.batch.axis_work import AxisWork
 from ..core.batch.batch import Item, begin, finish
 from ..core.batch.frames import output_path, parse_frames
-from ..core.batch.skeleton_work import SkeletonWork
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
+from ..core.products.axis import Axis
+from ..core.products.skeleton import Skeletons
 from ..core.settings import SamplingMode, SkeletonSettings
 from . import current_job
 from .compute_operator import FromSelection
@@ -138,8 +138,8 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         settings = settings_from(context.scene.medial_axis)
         settings = _faster(settings) if self.fast and has_faces(thing) else settings
         if self.of == "AXES":
-            return AxisWork(settings)
-        return SkeletonWork(
+            return Axis(settings)
+        return Skeletons(
             settings, settings_from(context.scene.medial_axis_skeleton, SkeletonSettings)
         )
 

@@ -8,7 +8,7 @@
 #include "cocone/watertight_surface.h"
 #include "inside/doubts.h"
 #include "inside/pockets.h"
-#include "skeleton/hierarchy.h"
+#include "levels/hierarchy.h"
 #include "thickness/thickness.h"
 
 namespace medial {

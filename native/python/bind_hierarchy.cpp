@@ -5,7 +5,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "docstrings.h"
-#include "skeleton/level.h"
+#include "levels/level.h"
 
 namespace medial::python {
 namespace {

@@ -7,11 +7,7 @@
 #include "base/rows.h"
 #include "base/triangle_tree.h"
 #include "bindings.h"
-#include "delaunay/crossing_faces.h"
-#include "delaunay/even_sheet.h"
-#include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
-#include "delaunay/wrap.h"
 #include "docstrings.h"
 #include "inside/buried.h"
 #include "inside/mesh_parts.h"
@@ -21,6 +17,10 @@
 #include "inside/surface.h"
 #include "inside/walls.h"
 #include "inside/winding_number.h"
+#include "mesh/crossing_faces.h"
+#include "mesh/even_sheet.h"
+#include "mesh/polygon_triangles.h"
+#include "mesh/wrap.h"
 
 namespace medial::python {
 namespace {

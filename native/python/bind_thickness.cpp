@@ -12,9 +12,9 @@
 #include "base/point_tree.h"
 #include "base/rows.h"
 #include "bindings.h"
-#include "contact/inscribed_balls.h"
 #include "docstrings.h"
 #include "inside/surface.h"
+#include "thickness/inscribed_balls.h"
 
 namespace medial::python {
 namespace {

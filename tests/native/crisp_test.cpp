@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "base/thread.h"
-#include "contact/closest_place.h"
-#include "contact/convex_creases.h"
-#include "contact/least_distance.h"
-#include "contact/touching_ball.h"
+#include "levels/level.h"
 #include "shapes.h"
-#include "skeleton/level.h"
+#include "walls/closest_place.h"
+#include "walls/convex_creases.h"
+#include "walls/least_distance.h"
+#include "walls/touching_ball.h"
 
 namespace medial {
 namespace {

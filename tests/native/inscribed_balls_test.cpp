@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The largest balls in a solid that touch its faces, compared with a plain loop over all of them.
-#include "contact/inscribed_balls.h"
+#include "thickness/inscribed_balls.h"
 
 #include <gtest/gtest.h>
 

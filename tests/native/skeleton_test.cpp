@@ -10,13 +10,13 @@
 #include "analysis_parts.h"
 #include "base/thread.h"
 #include "base/union_find.h"
+#include "collapse/bubbles.h"
+#include "collapse/bucket_queue.h"
+#include "collapse/fringe.h"
+#include "collapse/wires.h"
+#include "levels/curves.h"
+#include "levels/level.h"
 #include "shapes.h"
-#include "skeleton/bubbles.h"
-#include "skeleton/bucket_queue.h"
-#include "skeleton/curves.h"
-#include "skeleton/fringe.h"
-#include "skeleton/level.h"
-#include "skeleton/wires.h"
 
 namespace medial {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "balls/ball_reach.h"
 #include "base/nearest_ball.h"
 #include "base/patches.h"
+#include "cover/ball_reach.h"
 #include "shapes.h"
 
 namespace medial {

@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.batch import axis_work
 from medial_axis.core.files import read as read_module
 from medial_axis.core.machine import job as job_module
 from medial_axis.core.machine import native
+from medial_axis.core.products import axis as axis_work
 from test_cli import egg, files, here, program, run, write_egg  # noqa: F401 - fixtures
 
 from tests.support.fuzz import repeats

@@ -16,7 +16,7 @@ import pytest
 from medial_axis import cli
 from medial_axis.commands.parse import parse
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.batch import axis_work, batch, option_words
+from medial_axis.core.batch import batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
 from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.files.axis_arrays import as_arrays
@@ -26,6 +26,7 @@ from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write import export_axis
 from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Choice, Switch
+from medial_axis.core.products import axis as axis_work
 from medial_axis.core.settings import (
     OPTIONS,
     Settings,

@@ -10,11 +10,11 @@ from functools import partial
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.batch import hollow_work
 from medial_axis.core.errors import Cancelled, InvalidInputError
 from medial_axis.core.hollow.drain_hole import drain_hole
 from medial_axis.core.hollow.hollow import _step, hollow
 from medial_axis.core.machine.progress import Progress
+from medial_axis.core.products import hollow as hollow_work
 from medial_axis.core.settings import HollowSettings
 from medial_axis.core.shape.shape import Shape
 from scipy.spatial import ConvexHull, HalfspaceIntersection

@@ -6,6 +6,11 @@ import os
 import pytest
 from medial_axis.core.batch.outputs import Files
 from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.products.mid_surface import MiddleSurface
+from medial_axis.core.settings import MidSurfaceSettings, Settings
+
+SHEETS = MiddleSurface(Settings(), MidSurfaceSettings())
+SHEETS_AND_REST = MiddleSurface(Settings(), MidSurfaceSettings(keep_thick=True))
 
 
 def test_an_inode_that_moved_to_another_name_is_another_file(tmp_path):
@@ -42,8 +47,8 @@ def test_the_table_beside_triangles_replaces_nothing(tmp_path):
     table = tmp_path / "part.csv"
     table.write_text("an input")
     with pytest.raises(InvalidInputError, match="replaces no input"):
-        Files([str(table)]).claim(tmp_path / "part.stl")
-    files = Files()
+        Files([str(table)], SHEETS.beside).claim(tmp_path / "part.stl")
+    files = Files(beside=SHEETS.beside)
     files.claim(tmp_path / "part.stl")
     with pytest.raises(InvalidInputError, match="found '.*part.csv' again"):
         files.claim(table)
@@ -53,5 +58,7 @@ def test_the_thick_parts_beside_a_middle_surface_replace_nothing(tmp_path):
     thick = tmp_path / "part_thick.stl"
     thick.write_text("an input")
     with pytest.raises(InvalidInputError, match="replaces no input"):
-        Files([str(thick)], keeps_thick=True).claim(tmp_path / "part.inp")
+        Files(
+            [str(thick)], MiddleSurface(Settings(), MidSurfaceSettings(keep_thick=True)).beside
+        ).claim(tmp_path / "part.inp")
     Files([str(thick)]).claim(tmp_path / "part.inp")

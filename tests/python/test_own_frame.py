@@ -4,16 +4,16 @@
 import numpy as np
 import pytest
 from medial_axis import library
-from medial_axis.core.batch.balls_work import BallsWork
 from medial_axis.core.batch.batch import Item, begin, finish
-from medial_axis.core.batch.hollow_work import HollowWork
-from medial_axis.core.batch.mid_surface_work import MidSurfaceWork
-from medial_axis.core.batch.skeleton_work import SkeletonWork
-from medial_axis.core.batch.thicken_work import ThickenWork
-from medial_axis.core.batch.thickness_work import ThicknessWork
 from medial_axis.core.errors import MedialAxisError
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.machine.job import run_task
+from medial_axis.core.products.balls import Balls
+from medial_axis.core.products.hollow import HollowSolid
+from medial_axis.core.products.mid_surface import MiddleSurface
+from medial_axis.core.products.skeleton import Skeletons
+from medial_axis.core.products.thicken import ThickerWalls
+from medial_axis.core.products.thickness import Thickness
 from medial_axis.core.settings import (
     BallSettings,
     CoverShapes,
@@ -122,7 +122,7 @@ def test_axes_have_the_radii_of_the_faces(name, sizes):
 @far
 @every
 def test_thickness(name, sizes, tmp_path):
-    work = ThicknessWork(Settings(smooth=False), ThicknessSettings(limit=0.08))
+    work = Thickness(Settings(smooth=False), ThicknessSettings(limit=0.08))
     reports = []
     for distance in (0.0, sizes):
         shape, _ = placed(name, 3, distance)
@@ -137,7 +137,7 @@ def test_thickness(name, sizes, tmp_path):
 @farthest
 @pytest.mark.parametrize("name", ["plate", "tube"])
 def test_thicken(name, sizes, tmp_path):
-    work = ThickenWork(Settings(smooth=False), ThickenSettings(limit=0.1, subdivide=True))
+    work = ThickerWalls(Settings(smooth=False), ThickenSettings(limit=0.1, subdivide=True))
     (one, near), (other, there) = near_and_far(work, name, 4, sizes, tmp_path / "thick.off")
     assert_alike(one, other, ["minimum", "minimum_before"], 1e-5)
     # Which of two walls as near as each other fills in a place depends on the last bit.
@@ -148,7 +148,7 @@ def test_thicken(name, sizes, tmp_path):
 @farthest
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_middle_surfaces(name, sizes, tmp_path):
-    work = MidSurfaceWork(Settings(samples=3000), MidSurfaceSettings())
+    work = MiddleSurface(Settings(samples=3000), MidSurfaceSettings())
     (one, _), (other, _) = near_and_far(work, name, 5, sizes, tmp_path / "mid.obj")
     names = ["sheets", "least_thickness", "largest_thickness", "share_of_volume"]
     assert_alike(one, other, names, 0.01)
@@ -157,7 +157,7 @@ def test_middle_surfaces(name, sizes, tmp_path):
 @farthest
 @pytest.mark.parametrize("name", ["box", "profile"])
 def test_hollow(name, sizes, tmp_path):
-    work = HollowWork(HollowSettings(wall=0.2 * SOLIDS[name][1], voxel_size=0.02))
+    work = HollowSolid(Settings(), HollowSettings(wall=0.2 * SOLIDS[name][1], voxel_size=0.02))
     (one, _), (other, _) = near_and_far(work, name, 6, sizes, tmp_path / "hollow.off")
     assert_alike(one, other, ["wall", "least_wall", "deepest", "volume", "cavities"], 1e-3)
     assert one["warnings"] == other["warnings"]
@@ -166,7 +166,7 @@ def test_hollow(name, sizes, tmp_path):
 @farthest
 @pytest.mark.parametrize("name", ["tube", "profile"])
 def test_skeletons(name, sizes, tmp_path):
-    work = SkeletonWork(Settings(samples=1500), SkeletonSettings())
+    work = Skeletons(Settings(samples=1500), SkeletonSettings())
     reports = []
     for distance in (0.0, sizes):
         shape, _ = placed(name, 7, distance)
@@ -182,7 +182,7 @@ def test_skeletons(name, sizes, tmp_path):
 @pytest.mark.parametrize("name", ["box", "profile"])
 @pytest.mark.parametrize("shapes", [CoverShapes.BALLS, CoverShapes.CAPSULES])
 def test_balls(name, sizes, shapes, tmp_path):
-    work = BallsWork(Settings(samples=1500), BallSettings(count=12, shapes=shapes))
+    work = Balls(Settings(samples=1500), BallSettings(count=12, shapes=shapes))
     reports = []
     for distance in (0.0, sizes):
         shape, _ = placed(name, 8, distance)
@@ -224,7 +224,7 @@ def test_points_alone():
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_single_coordinates_at_a_thousand_sizes(name, tmp_path):
     """Their noise is 10^-4 sizes there: the products are those at the origin up to a few times that."""
-    work = ThicknessWork(Settings(), ThicknessSettings(limit=0.08))
+    work = Thickness(Settings(), ThicknessSettings(limit=0.08))
     reports = []
     for distance in (0.0, 1e3):
         shape, _ = placed(name, 3, distance, single=True)

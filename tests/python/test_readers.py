@@ -8,10 +8,10 @@ import medial_axis
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.batch.axis_work import AxisWork
 from medial_axis.core.errors import ExportError
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write import left_out
+from medial_axis.core.products.axis import Axis
 from medial_axis.core.settings import Settings
 
 from tests.readers import example, verdict
@@ -159,7 +159,7 @@ def test_the_command_line_says_what_triangles_leave_out(tmp_path, capsys):
 
 def test_the_report_says_what_triangles_leave_out(axis, tmp_path):
     found = SimpleNamespace(axis=wired(axis))
-    work = AxisWork(Settings(), triangles=True)
+    work = Axis(Settings(), triangles=True)
     said = work.write(found, tmp_path / "a.ply", np.identity(4))
     assert said == (left_out(wired(axis), "a.ply", triangles=True),) and said[0]
     assert work.write(found, tmp_path / "a.obj", np.identity(4)) == ()

@@ -7,19 +7,22 @@ Files are the same if the system says so (links included) or if their paths are,
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ..errors import InvalidInputError
-from ..mid_surface.write_mid_surface import thick_path
 from .batch import report_path
 
 
 class Files:
-    """Records the files that a run reads and writes; `keeps_thick` is of `MidSurfaceSettings`."""
+    """Records the files that a run reads and writes; `beside` returns what is written next to an output."""
 
-    def __init__(self, inputs: Iterable[str] = (), keeps_thick: bool = False) -> None:
-        self._keeps_thick = keeps_thick
+    def __init__(
+        self,
+        inputs: Iterable[str] = (),
+        beside: Callable[[Path], tuple[Path, ...]] = lambda _output: (),
+    ) -> None:
+        self._beside = beside
         self._read: dict[object, Path] = {
             key: path for path in map(Path, inputs) for key in _identities(path)
         }
@@ -57,10 +60,7 @@ class Files:
             self._written |= dict.fromkeys(_identities(path), path)
 
     def _written_with(self, output: Path) -> tuple[Path, ...]:
-        """Return an output, the report next to it, and what is written beside it in other files."""
-        tables = (output.with_suffix(".csv"),) if output.suffix.lower() == ".stl" else ()
-        thick = (thick_path(output),) if self._keeps_thick else ()
-        return output, report_path(output), *tables, *thick
+        return output, report_path(output), *self._beside(output)
 
 
 def _same_file(path: Path, recorded: dict[object, Path]) -> Path | None:

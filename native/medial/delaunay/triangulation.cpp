@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/triangulation.h"
 
+#include "base/cgal.h"
 #include "base/sort.h"
-#include "delaunay/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 // clang-format on
-#include "delaunay/insertion_order.h"
+#include "base/insertion_order.h"
 
 namespace medial {
 namespace {

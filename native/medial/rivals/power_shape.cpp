@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "base/cgal.h"
 #include "base/frame.h"
 #include "base/rows.h"
-#include "delaunay/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_3.h>
@@ -13,7 +13,7 @@
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 // clang-format on
-#include "delaunay/insertion_order.h"
+#include "base/insertion_order.h"
 
 namespace medial {
 namespace {

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The base of the records: everything that the command line and the batch ask of a product.
+
+A new product is a room of core that computes it, a record here, and a line in PRODUCTS.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..batch.option_words import add_options, add_sampling, as_words, sampling_from, settings_from
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings
+from ..shape.shape import Shape
+
+# The words of the command line, and the files of the records; only the one that is used is imported.
+PRODUCTS = {
+    "": "axis",
+    "thickness": "thickness",
+    "thicken": "thicken",
+    "skeleton": "skeleton",
+    "balls": "balls",
+    "midsurface": "mid_surface",
+    "hollow": "hollow",
+}
+
+
+@dataclass(frozen=True)
+class Product:
+    """A kind of result with its settings; the `repr` has all settings that an output depends on.
+
+    Parameters
+    ----------
+    settings : Settings
+        Of the method; thresholds count for the axis alone.
+    wanted : object
+        The product's own settings, of the class `kind`; None where they are those of the method.
+    """
+
+    settings: Settings
+    wanted: Any = None
+
+    description: ClassVar[str]
+    heading: ClassVar[str]  # of the product's own options
+    kind: ClassVar[type]
+    formats: ClassVar[Iterable[str]]  # extensions, such as ".ply"
+    usual: ClassVar[str]  # the format of files in a folder, such as "ply"
+    help: ClassVar[str]  # inputs, outputs and examples, after the options
+    # The exit codes that mean other things than those of all products.
+    codes: ClassVar[tuple[tuple[int, str], ...]] = ()
+
+    @classmethod
+    def add_words(cls, parser: argparse.ArgumentParser) -> None:
+        """Add the product's options to a parser."""
+        add_options(parser.add_argument_group(cls.heading), cls.kind)
+        add_sampling(parser.add_argument_group("method"))
+
+    @classmethod
+    def from_words(cls, words: argparse.Namespace) -> Product:
+        """Return the product that a parsed command line asks for; InvalidInputError where a number is wrong."""
+        return cls(sampling_from(words), settings_from(words, cls.kind))
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any:
+        """Return a result with `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled."""
+        raise NotImplementedError
+
+    def check(self, found: Any) -> None:
+        """Raise MedialAxisError if there is nothing to write; most products fail before that."""
+
+    def write(self, found: Any, path: Path, frame: np.ndarray) -> tuple[str, ...]:
+        """Write the file, and return warnings about the parts that it does not hold."""
+        raise NotImplementedError
+
+    def beside(self, _output: Path) -> tuple[Path, ...]:
+        """Return the files that are written next to an output, besides its report."""
+        return ()
+
+    def words(self) -> dict[str, Any]:
+        """Return the settings as words of the command line, for the report."""
+        own = {} if self.wanted is None else as_words(self.wanted)
+        return {**as_words(self.settings), **own}
+
+    def figures(self, found: Any) -> dict[str, Any]:
+        """Return the figures of a result, for the report."""
+        raise NotImplementedError
+
+
+def product(word: str) -> type[Product]:
+    """Return the record of a word of PRODUCTS."""
+    record: type[Product] = import_module(f".{PRODUCTS[word]}", __package__).RECORD
+    return record

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The record of thickness."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..batch.option_words import add_sampling, add_thickness, settings_from
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings, ThicknessSettings
+from ..shape.shape import Shape
+from ..thickness.measurement import Measurement
+from ..thickness.thickness import measure_thickness
+from ..thickness.thin_parts import find_thin_parts
+from ..thickness.write_thickness import THICKNESS_FORMATS, export_thickness, summary_of
+from .product import Product
+
+
+@dataclass(frozen=True)
+class Thickness(Product):
+    """Thickness; `unit` is what lengths are in."""
+
+    wanted: ThicknessSettings
+    unit: str = ""
+
+    description = "How thick meshes and point clouds are, and where they are too thin."
+    heading = "lengths"
+    kind = ThicknessSettings
+    formats = THICKNESS_FORMATS
+    usual = "json"
+    codes = (
+        (0, "nothing is thinner than the limit"),
+        (5, "something is thinner than the limit"),
+        (6, "something could not be measured"),
+    )
+    help = """\
+INPUT     as of medial_axis --help.
+OUTPUT    a file, or a folder; {name}, {file} and #### as there.
+          .csv   thickness at every vertex of the input and every other measured point
+          .json  minimum, area and share below the limit, patches with place, area and minimum
+          .ply   the measured surface, coloured: red at the limit, blue from three times the limit
+
+examples:
+  medial_axis thickness bracket.stl bracket.json --limit 1.2 --unit mm
+  medial_axis thickness parts/*.stl reports/ --format csv --limit 1.2
+  medial_axis thickness hinge.stl gaps.ply --limit 0.4 --gap
+"""
+
+    @classmethod
+    def add_words(cls, parser: argparse.ArgumentParser) -> None:
+        lengths = parser.add_argument_group(cls.heading)
+        add_thickness(lengths)
+        lengths.add_argument(
+            "--unit",
+            default="",
+            metavar="NAME",
+            help="what lengths are in, for the report; mm, say",
+        )
+        add_sampling(parser.add_argument_group("method"))
+
+    @classmethod
+    def from_words(cls, words: argparse.Namespace) -> Thickness:
+        return cls(settings_from(words, Settings), settings_from(words, cls.kind), words.unit)
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Measurement:
+        return measure_thickness(shape, self.settings, self.wanted, progress, limit)
+
+    def write(self, found: Measurement, path: Path, _frame: np.ndarray) -> tuple[str, ...]:
+        export_thickness(found, find_thin_parts(found, self.wanted.limit), path, self.unit)
+        return ()
+
+    def figures(self, found: Measurement) -> dict[str, Any]:
+        summary = summary_of(found, find_thin_parts(found, self.wanted.limit), self.unit)
+        del summary["warnings"]  # every report has them
+        return summary
+
+
+RECORD = Thickness

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The largest capsule round a segment that stays in a solid, and how far one leaves it.
+#pragma once
+
+#include "cover/capsule_line.h"
+#include "cover/covered_solid.h"
+
+namespace medial {
+
+// The union of the balls round the places of a segment. With equal ends it is a ball.
+struct Capsule {
+  Vec3 a, b;
+  LinearLength radius;
+
+  Vec3 place(double share) const { return (1 - share) * a + share * b; }
+  double volume() const;
+};
+
+// Returns an upper bound, close to the least one, of how far the balls of a capsule reach out of
+// the solid: of radius less depth. It is negative if the capsule could grow by so much. Balls
+// between the places that are looked at are bounded, because depths change no faster than places.
+double reach_out(const Capsule& capsule, const SolidDepth& depth);
+
+// Returns the largest of some capsules in the solid: those round the whole segment, with equal
+// radii and, if `tapered`, with the radii that are largest in the middle; and the balls round the
+// ends. Radii are 0 if both ends are outside.
+Capsule inner_capsule(const Vec3& a, const Vec3& b, bool tapered, const SolidDepth& depth);
+
+}  // namespace medial

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the empty ball that touches walls of the faces near a place.
+#pragma once
+
+#include "walls/samples_on_faces.h"
+#include "walls/touching_ball.h"
+
+namespace medial {
+
+// Holds the walls that a ball touches, by triangles of the mesh.
+struct Walls {
+  std::array<int32_t, kMostContacts> triangle{-1, -1, -1, -1};
+  size_t count = 0;
+
+  std::span<int32_t> all() { return {triangle.data(), count}; }
+  bool add(int32_t t) {
+    if (count == kMostContacts) return false;
+    triangle[count++] = t;
+    return true;
+  }
+  bool operator==(const Walls&) const = default;
+};
+
+struct Touch {
+  Vec3 position;
+  double radius = 0;  // 0: there is no empty ball that touches the walls
+  Walls walls{};
+  std::array<Vec3, kMostContacts> away{};  // unit directions from the feet
+};
+
+// Returns the squared sine of half the angle between the directions to the first two feet.
+inline double openness(const std::array<Vec3, kMostContacts>& away) {
+  return 0.5 * (1 - dot(away[0], away[1]));
+}
+
+// Directions to feet that differ by less are those to one foot.
+inline constexpr double kSameFoot = 0.08;
+
+// A place, and the largest hole between the samples there, in which lengths are measured.
+struct NearPlace {
+  Vec3 place;
+  double hole;
+};
+
+// Finds the ball that touches some walls near a place; the search begins at `start`. A wall that it
+// sticks out of is added, up to a number of walls; then
+// it takes the place of the one that is seen nearest to it, if `swaps`.
+Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
+                 const Vec3& start, size_t most = kMostContacts, bool swaps = false);
+// Finds a ball that touches some walls, although others are as near but for what smooth faces are
+// off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
+// the nearest face. The place is nearer than a distance to the given one.
+Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,
+                        double within);
+
+}  // namespace medial

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "exact/even_creases.h"
+
+#include "base/parallel.h"
+
+namespace medial {
+namespace {
+
+// Lengths are in holes between the samples.
+constexpr double kCreaseBall = 8;       // the largest ball of a rim that ends in a crease
+constexpr double kAccidentBall = 3.5;   // the same of one that may be no crease
+constexpr double kCornerReach = 2.5;    // from the end of a rim to a corner of the solid
+constexpr double kOneDirection = 0.85;  // the cosine between creases of one direction
+
+// Where a vertex of a rim goes.
+struct OnCrease {
+  PlaceOnCrease place;
+  bool at_corner = false;  // whether facets lead into creases of two directions there
+};
+
+class CreaseHolder {
+ public:
+  CreaseHolder(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
+               std::span<const double> hole, std::span<const double> radius)
+      : e_(even), samples_(samples), generators_(generators), hole_(hole), radius_(radius) {}
+
+  void hold(const Run& run) {
+    std::vector<OnCrease> found(e_.position.size());
+    parallel_for(
+        static_cast<int64_t>(found.size()), {run.threads, nullptr, nullptr},
+        [&](int64_t v) { found[v] = crease_of(static_cast<int32_t>(v)); }, 256);
+    find_corners(run);
+    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+      if (found[v].place.edge < 0) continue;
+      e_.position[v] = found[v].place.point;
+      e_.held[v] = kOnLine;
+      if (found[v].at_corner) take_corner(v, kCreaseBall * hole_[v]);
+    }
+    reach_corners(run);
+    end_lines();
+  }
+
+ private:
+  // Where the rim of one sheet meets the middle of another, only the first one ends, and the crease
+  // into which the second one leads is farther on. So only triangles with an edge of a rim count.
+  OnCrease crease_of(int32_t v) const {
+    OnCrease best;
+    if (!(radius_[v] < kCreaseBall * hole_[v])) return best;
+    bool ends = false;
+    e_.mesh.for_triangles(v, [&](int32_t t) {
+      const auto found = samples_.crease_between(generators_[e_.source[t]], e_.position[v]);
+      if (!found || !(distance(found->point, e_.position[v]) < reach_of(*found) * hole_[v])) return;
+      for (const int32_t other : link_of(e_.mesh.triangle(t), v)) {
+        ends = ends || e_.mesh.uses(v, other) == 1;
+      }
+      best.at_corner = best.at_corner || (best.place.edge >= 0 && !same_line(best.place, *found));
+      if (best.place.edge < 0 ||
+          distance(found->point, e_.position[v]) < distance(best.place.point, e_.position[v])) {
+        best.place = *found;
+      }
+    });
+    return ends ? best : OnCrease{};
+  }
+
+  // Sharp edges that divide nothing are often accidents of a coarse mesh, and a zigzag only stands
+  // for a line, which is elsewhere.
+  double reach_of(const PlaceOnCrease& place) const {
+    const ConvexCreases& creases = samples_.creases();
+    if (creases.is_fragment(place.edge) || creases.is_jagged(place.edge)) return 0;
+    return creases.divides(place.edge) ? kCreaseBall : kAccidentBall;
+  }
+
+  bool same_line(const PlaceOnCrease& a, const PlaceOnCrease& b) const {
+    return a.edge == b.edge || std::abs(dot(direction(a.edge), direction(b.edge))) > kOneDirection;
+  }
+  Vec3 direction(int32_t edge) const {
+    const auto& mesh = samples_.faces().mesh();
+    const auto& [a, b] = samples_.faces().creases().edges[edge].ends;
+    return normalized(mesh.points[b] - mesh.points[a]);
+  }
+
+  void find_corners(const Run& run) {
+    const auto& points = samples_.faces().mesh().points;
+    for (size_t p = 0; p < points.size(); ++p) {
+      if (samples_.creases().is_corner(static_cast<int32_t>(p))) corners_.push_back(points[p]);
+    }
+    if (!corners_.empty()) tree_ = PointTree::sorted(corners_, {run.threads, nullptr, nullptr});
+    reached_.assign(corners_.size(), 0);
+  }
+
+  void take_corner(int32_t v, double within) {
+    if (corners_.empty()) return;
+    const Neighbour nearest = tree_.nearest(e_.position[v]);
+    if (!(nearest.distance < within)) return;
+    put(v, static_cast<size_t>(nearest.id));
+  }
+  void put(int32_t v, size_t corner) {
+    e_.position[v] = corners_[corner];
+    e_.held[v] = kInCorner;
+    e_.mesh.make_node(v);
+    reached_[corner] = 1;
+  }
+
+  // Moves the nearest vertex on a crease to each corner that no vertex has reached.
+  void reach_corners(const Run& run) {
+    std::vector<int32_t> held;
+    std::vector<Vec3> places;
+    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+      if (e_.held[v] != kOnLine) continue;
+      held.push_back(v);
+      places.push_back(e_.position[v]);
+    }
+    if (held.empty()) return;
+    const PointTree tree = PointTree::sorted(places, {run.threads, nullptr, nullptr});
+    for (size_t c = 0; c < corners_.size(); ++c) {
+      if (reached_[c]) continue;
+      const Neighbour nearest = tree.nearest(corners_[c]);
+      const int32_t v = held[nearest.id];
+      if (e_.held[v] == kOnLine && nearest.distance < kCornerReach * hole_[v]) put(v, c);
+    }
+  }
+
+  // A vertex whose neighbour along the rim is on no crease ends the line.
+  void end_lines() {
+    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+      if (!e_.held[v] || e_.mesh.stratum(v) != Stratum::curve) continue;
+      const auto [a, b] = e_.mesh.along_curve(v);
+      if (!e_.held[a] || !e_.held[b]) e_.mesh.make_node(v);
+    }
+  }
+
+  EvenMesh& e_;
+  const SamplesOnFaces& samples_;
+  std::span<const Edge> generators_;
+  std::span<const double> hole_, radius_;
+  PointTree tree_;
+  std::vector<Vec3> corners_;
+  std::vector<uint8_t> reached_;  // per corner
+};
+
+}  // namespace
+
+void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
+                     std::span<const Edge> generators, std::span<const double> hole,
+                     std::span<const double> radius, const Run& run) {
+  if (samples.creases().empty()) return;
+  CreaseHolder(even, samples, generators, hole, radius).hold(run);
+}
+
+}  // namespace medial

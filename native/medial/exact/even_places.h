@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Moves the vertices of an even mesh to where balls touch the faces, and its smooth rims to where
+// the two places that a ball touches become one.
+#pragma once
+
+#include "exact/crisp.h"
+#include "exact/smooth_rim.h"
+#include "remesh/even_mesh.h"
+
+namespace medial {
+
+class EvenPlaces {
+ public:
+  // `generators` are per facet. The arguments must outlive this object.
+  EvenPlaces(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
+             std::span<const Edge> wires, const Run& run);
+
+  // Takes over what is known of vertices that stay as they are.
+  void start_from(std::span<const Placing> placing, std::span<const double> radius);
+  // Places all vertices of triangles. What turns a triangle over is refused.
+  void place();
+  // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and
+  // what is beside them must be placed.
+  bool slide();
+  // Places rims that end on no crease, and what is beside them.
+  void place_rims();
+
+  // (v) as of the last call of `place`; a vertex in no triangle is `voronoi`
+  const std::vector<Placing>& placing() const { return placing_; }
+  // (v) of the ball that touches the faces, where the placing is `touching` or more
+  const std::vector<double>& radius() const { return radius_; }
+
+ private:
+  void place(std::span<const int32_t> vertices);
+  void join_neighbour(int32_t v);
+  std::vector<int32_t> open_rims() const;
+  double hole_at(int32_t v) const;
+  bool has_walls(int32_t v) const;
+  std::vector<Foot> feet_of(int32_t v) const;
+  Walls walls_of(int32_t v) const;
+  Touch ball_at(int32_t v) const;
+  Touch ball_of_walls(int32_t v) const;
+  bool is_open_rim(int32_t v) const;
+  SmoothRim way_out(int32_t v) const;
+  SmoothRim last_ball(int32_t v) const;
+  SmoothRim before_third_wall(int32_t v) const;
+  bool has_parallel_walls(int32_t v) const;
+  Touch ball_between(int32_t v, const Vec3& start) const;
+  Vec3 last_place(int32_t v, const Vec3& far) const;
+  double step_of(int32_t v, const SmoothRim& way) const;
+  void take_means(std::span<const int32_t> rims, int rounds, std::vector<double>& values) const;
+  Vec3 outward_at(int32_t v) const;
+  void even_out(std::span<const int32_t> rims, std::span<const SmoothRim> way,
+                std::vector<double>& step) const;
+
+  EvenMesh& e_;
+  const SamplesOnFaces& samples_;
+  std::span<const Edge> generators_;
+  const Run& run_;
+  std::vector<int32_t> along_wire_;  // (v) the other end of a wire that ends at a sheet; or -1
+  std::vector<Placing> placing_;
+  std::vector<double> radius_;
+  std::vector<Touch> found_;
+};
+
+}  // namespace medial

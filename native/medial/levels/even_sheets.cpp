@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "levels/even_sheets.h"
+
+#include <numeric>
+
+#include "exact/even_creases.h"
+#include "exact/even_places.h"
+#include "exact/simplices.h"
+#include "levels/even_level.h"
+#include "remesh/remesh.h"
+#include "remesh/target_length.h"
+
+namespace medial {
+namespace {
+
+// Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
+// blue noise are about 1.65 holes apart.
+constexpr double kEdge = 2.8;  // the wanted length of an edge: 1.7 times the distance of samples
+constexpr double kLeastEdge = 1.3;       // in narrow sheets, where there is nothing to gain below
+constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
+constexpr double kMerged = 0.25;         // that Voronoi vertices of one place are apart
+constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
+constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
+constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
+constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
+constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
+
+class EvenSheets {
+ public:
+  EvenSheets(Level& level, const Hierarchy::Parts& h, bool crisp, const Run& run)
+      : level_(level),
+        h_(h),
+        samples_(crisp ? h.on_faces.get() : nullptr),
+        run_{run.threads, nullptr, nullptr},
+        progress_(run.progress) {}
+
+  EvenVertices make() {
+    for (size_t f = 0; f < level_.facet_of.size(); ++f) {
+      generators_.push_back(h_.complex.generators[level_.facet_of[f]]);
+    }
+    EvenMesh even = start();
+    const SamplesOnFaces* samples = samples_;
+    if (samples) hold_on_creases(even, *samples, generators_, hole_, radius_, run_);
+    std::vector<double> within(hole_);
+    for (double& w : within) w *= kMerged;
+    merge_close(even, within);
+    choose_targets(even);
+    RemeshOptions options{true, kChord * h_.complex.diagonal, [&](const Vec3& place) {
+                            return samples->creases().nearer(place, HUGE_VAL)->point;
+                          }};
+    for (int round = 0; round < kRounds; ++round) {
+      options.moves_curves = round < kMovingRounds;
+      one_round(even, options, 0.4 * round / kRounds);
+    }
+    if (!samples) return write_even(even, {}, {}, h_, level_, run_);
+    EvenPlaces places(even, *samples, generators_, level_.wires, run_);
+    settle(even, places, options);
+    return write_even(even, places.placing(), places.radius(), h_, level_, run_);
+  }
+
+ private:
+  void one_round(EvenMesh& even, const RemeshOptions& options, double share) {
+    advance(progress_, share);
+    throw_if_cancelled(progress_);
+    remesh(even, options, run_);
+  }
+
+  EvenMesh start() {
+    Simplices simplices = simplices_of(level_);
+    const size_t old = level_.vertices.size(), all = old + simplices.centres.size();
+    std::vector<int32_t> origin(all);
+    std::iota(origin.begin(), origin.end(), 0);
+    std::vector<Vec3> position(level_.vertices.begin(), level_.vertices.end());
+    radius_.assign(level_.radius.begin(), level_.radius.end());
+    for (size_t i = 0; i < simplices.centres.size(); ++i) {
+      const int32_t f = simplices.centres[i];
+      const auto begin = level_.face_offsets[f], end = level_.face_offsets[f + 1];
+      Vec3 sum;
+      for (int32_t c = begin; c < end; ++c) sum = sum + position[level_.face_vertices[c]];
+      origin[old + i] = level_.face_vertices[begin];
+      position.push_back((1.0 / (end - begin)) * sum);
+      radius_.push_back(radius_[origin[old + i]]);
+    }
+    std::vector<Vec3> normal;
+    for (const int32_t f : simplices.source) {
+      const auto& [p, q] = generators_[f];
+      normal.push_back(normalized((*h_.samples)[q] - (*h_.samples)[p]));
+    }
+    std::vector<uint8_t> is_node(all, 0);
+    for (const int32_t v : level_.points) is_node[v] = 1;
+    SheetComplex mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
+                      is_node);
+    EvenMesh even{std::move(mesh),
+                  std::move(position),
+                  std::vector<double>(all),
+                  std::move(origin),
+                  std::vector<uint8_t>(all, kFree),
+                  std::move(simplices.source),
+                  std::move(normal)};
+    find_holes(even);
+    return even;
+  }
+
+  // Finds the largest hole between the samples at each vertex, and the mean area of its facets.
+  void find_holes(const EvenMesh& even) {
+    std::vector<double> area(generators_.size(), 0);
+    for (int32_t t = 0; t < even.mesh.triangles(); ++t) {
+      const auto& [a, b, c] = even.mesh.triangle(t);
+      area[even.source[t]] += 0.5 * length(cross(even.position[b] - even.position[a],
+                                                 even.position[c] - even.position[a]));
+    }
+    hole_.assign(even.position.size(), 0);
+    facet_area_.assign(even.position.size(), 0);
+    parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
+      int count = 0;
+      double sum = 0;
+      even.mesh.for_triangles(static_cast<int32_t>(v), [&](int32_t t) {
+        const int32_t f = even.source[t];
+        for (const int32_t s : generators_[f]) hole_[v] = std::max(hole_[v], (*h_.spacing)[s]);
+        sum += area[f];
+        ++count;
+      });
+      facet_area_[v] = count > 0 ? sum / count : 0;
+    });
+  }
+
+  void choose_targets(EvenMesh& even) {
+    const auto width = half_widths(even.mesh, even.position);
+    parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
+      const double least =
+          std::max(kLeastEdge * hole_[v], 0.4 * kOfArea * std::sqrt(facet_area_[v]));
+      const double most = std::max(kEdge * hole_[v], kOfArea * std::sqrt(facet_area_[v]));
+      even.target[v] = std::clamp(kOfWidth * width[v], least, most);
+    });
+    spread_least(even.mesh, even.position, kSlope, even.target);
+  }
+
+  void settle(EvenMesh& even, EvenPlaces& places, RemeshOptions& options) {
+    places.place();
+    follow_curvature(even);
+    for (int round = 0; round < kRoundsAfterPlaces; ++round) {
+      one_round(even, options, 0.4 + 0.1 * round);
+    }
+    places.place();
+    // Rims lose what is uneven in their steps, and what that took off them comes back.
+    options.moves_curves = true;
+    for (int i = 0; i < kSlides && places.slide(); ++i) {
+      one_round(even, options, 0.6 + 0.3 * i / kSlides);
+      places.place_rims();
+    }
+    places.place();
+  }
+
+  // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of
+  // their height times this angle.
+  void follow_curvature(EvenMesh& even) {
+    const SheetComplex& mesh = even.mesh;
+    const double chord = kChord * h_.complex.diagonal;
+    for (const auto& [a, b] : mesh.edges()) {
+      const auto& two = mesh.triangles_at(a, b);
+      if (two.size() != 2) continue;
+      const int32_t c = mesh.third_corner(two[0], a, b), d = mesh.third_corner(two[1], a, b);
+      const double turn = length(cross(even.normal[two[0]], even.normal[two[1]]));
+      const double miss = distance(even.position[c], even.position[d]) * turn / 16;
+      if (!(miss > chord)) continue;
+      const double shorter = std::sqrt(chord / miss);
+      for (const int32_t v : {a, b, c, d}) {
+        const double least = kLeastOfCurved * hole_[even.origin[v]];
+        const double wanted = shorter * distance(even.position[a], even.position[b]);
+        even.target[v] = std::min(even.target[v], std::max(least, wanted));
+      }
+    }
+    spread_least(mesh, even.position, kSlope, even.target);
+  }
+
+  Level& level_;
+  const Hierarchy::Parts& h_;
+  const SamplesOnFaces* samples_;  // null if no faces give places
+  Run run_;
+  Progress* progress_;
+  std::vector<Edge> generators_;                    // per facet of the level: samples
+  std::vector<double> hole_, radius_, facet_area_;  // per vertex at the start
+};
+
+}  // namespace
+
+EvenVertices make_even(Level& level, const Hierarchy::Parts& hierarchy, bool crisp,
+                       const Run& run) {
+  if (level.facet_of.empty()) return {};
+  return EvenSheets(level, hierarchy, crisp, run).make();
+}
+
+}  // namespace medial
