@@ -7,8 +7,8 @@ change a result.
     python3 lab/benchmarks/product_hashes.py | diff old -
     python3 lab/benchmarks/product_hashes.py --checkout PATH cup thickness     another checkout; jobs with these words
 
-A job that is refused has its message in place of a hash. Reports are hashed without their seconds and their stamp,
-which holds the version. `output_hashes.py` does the same for the compiled module alone.
+A job that is refused has its message in place of a hash. Reports are hashed without their seconds, paths and
+stamp, which holds the version. `output_hashes.py` does the same for the compiled module alone.
 """
 
 import argparse
@@ -43,6 +43,7 @@ PRODUCTS = {
     "balls": (["ma", "urdf", "xml"], ["--count", "16"]),
     "balls capsules": (["json"], ["--shapes", "capsules", "--count", "4"]),
 }
+_OF_THE_RUN = ("stamp", "version", "input", "output")
 FILES = ("3holes.off", "spot_low.obj", "knot1.off", "club.off", "cactus.xyz")
 
 
@@ -108,7 +109,7 @@ def without_seconds(value):
         return {
             k: without_seconds(v)
             for k, v in value.items()
-            if "seconds" not in k and k not in ("stamp", "version")
+            if "seconds" not in k and k not in _OF_THE_RUN
         }
     return [without_seconds(v) for v in value] if isinstance(value, list) else value
 

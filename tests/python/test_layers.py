@@ -46,7 +46,7 @@ CORE = set(MAY_IMPORT)
 MAY_IMPORT |= {
     "commands": {*CORE, "bridge", ""},
     "bridge": {*CORE, "bridge/nodes", ""},
-    "bridge/nodes": {"core/axis", "bridge"},
+    "bridge/nodes": {"core", "core/axis", "bridge"},
     "ui": {*CORE, "bridge", "bridge/nodes", ""},
 }
 

@@ -15,7 +15,6 @@
 namespace medial {
 namespace {
 
-constexpr double kPiece = 0.5;         // edges of pieces of the surface, in steps of the lattice
 constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
 // With more balls than this, a refined choice would cost much and gain next to nothing.
 constexpr int64_t kMostRefined = 1024;

@@ -9,8 +9,6 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kTriangles = 16;  // triangles in one piece of work
-
 // This keeps the largest radius that each ball needs, among the places that one thread has seen.
 class Needs {
  public:

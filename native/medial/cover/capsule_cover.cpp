@@ -12,7 +12,6 @@
 namespace medial {
 namespace {
 
-constexpr double kPiece = 0.5;  // edges of pieces of the surface, in steps of the lattice
 constexpr int64_t kOfTask = 1;  // capsules in one piece of work
 
 void check(const CapsuleCoverInput& input, const CapsuleCoverOptions& options) {

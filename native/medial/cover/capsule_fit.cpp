@@ -10,7 +10,6 @@ namespace medial {
 namespace {
 
 constexpr int kFirst = 32;            // places along a segment to begin with
-constexpr double kFine = 1.0 / 256;   // of the larger radius: bounds are so close to the truth
 constexpr size_t kMostPieces = 8192;  // of a segment; a bound with more of them is less close
 
 // Part of a segment, and how far the ball in its middle reaches out.
@@ -59,7 +58,7 @@ double reach_out(const Capsule& capsule, const SolidDepth& depth) {
   }
   const double change =
       distance(capsule.a, capsule.b) + std::abs(capsule.radius.second - capsule.radius.first);
-  const double fine = kFine * std::max(capsule.radius.first, capsule.radius.second);
+  const double fine = kOfRadius * std::max(capsule.radius.first, capsule.radius.second);
   auto pieces = first_pieces(capsule, depth);
   double most = -HUGE_VAL, bound = -HUGE_VAL;
   while (!pieces.empty()) {

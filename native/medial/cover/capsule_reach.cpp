@@ -9,8 +9,6 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kTriangles = 16;  // triangles in one piece of work
-
 using Growth = std::vector<std::vector<LengthAt>>;
 
 // Calls visit(worker, a, b, c) for each piece of the surface.

@@ -13,6 +13,8 @@
 
 namespace medial {
 
+inline constexpr double kPiece = 0.5;  // edges of pieces of the surface, in steps of the lattice
+
 // The solid is kept in a frame in which squares of lengths do not overflow.
 struct CoveredSolid {
   // The frame holds the vertices and `others`. Throws DegenerateInputError if the faces enclose

@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kCoordinate = 2;       // directions to begin with have whole coordinates up to this
 constexpr int kCircleSteps = 64;     // the centre of a circle is off by about one part of so many
-constexpr double kNear = 1.0 / 256;  // of the radius: as near to the least as radii in a solid are
 constexpr int64_t kMostRounds = 64;  // of places that are added because they are not held yet
 
 // Returns one of each two opposite directions.
@@ -113,7 +112,7 @@ Capsule along_direction(const Vec3& way, std::span<const Vec3> places, bool tape
 Capsule with_moved_ends(Capsule best, std::span<const Vec3> places, bool tapered) {
   const auto size = [&] { return std::max(best.radius.first, best.radius.second); };
   double step = size() / 2;
-  while (step > kNear * size()) {
+  while (step > kOfRadius * size()) {
     const Vec3 along = normalized(best.b - best.a);
     const Vec3 way = along == Vec3{} ? Vec3{1, 0, 0} : along;
     const auto [aside, third] = across(way);
@@ -159,7 +158,7 @@ Capsule least_capsule(std::span<const Vec3> places, bool tapered) {
   for (int64_t round = 0; round < kMostRounds; ++round) {
     best = with_moved_ends(best, deciding, tapered);
     const auto [place, out] = most_outside(best, places);
-    if (out <= kNear * std::max(best.radius.first, best.radius.second)) break;
+    if (out <= kOfRadius * std::max(best.radius.first, best.radius.second)) break;
     deciding.push_back(place);
     best = round_segment(best.a, best.b, deciding, tapered);
   }

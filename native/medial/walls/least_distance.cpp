@@ -5,7 +5,7 @@ namespace medial {
 namespace {
 
 // The corners of a triangle in turn.
-constexpr int kNext[3] = {1, 2, 0}, kPrevious[3] = {2, 0, 1};
+constexpr int kAfter[3] = {1, 2, 0}, kBefore[3] = {2, 0, 1};
 
 using Three = std::array<double, 3>;
 
@@ -33,7 +33,7 @@ Quartic lowered_square(const Patch& patch, const Vec3& from) {
   Quartic square{};
   Three mixed{};
   for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
+    const int j = kAfter[i];
     to_next[i] = controls[3 + 2 * i] - from - (1.0 / 3) * (2 * flat[i] + flat[j]);
     to_previous[j] = controls[4 + 2 * i] - from - (1.0 / 3) * (2 * flat[j] + flat[i]);
     square.corner[i] = dot(flat[i], flat[i]);
@@ -41,7 +41,7 @@ Quartic lowered_square(const Patch& patch, const Vec3& from) {
   }
   const Vec3 middle = controls[9] - from - (1.0 / 3) * (flat[0] + flat[1] + flat[2]);
   for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i], k = kPrevious[i];
+    const int j = kAfter[i], k = kBefore[i];
     const double ii = square.corner[i], jj = square.corner[j], ij = mixed[i];
     square.side[i] = {
         0.5 * (ii + ij) + 1.5 * dot(flat[i], to_next[i]),
@@ -73,7 +73,7 @@ double least_of(const Quadratic& q) {
   }
   double least = HUGE_VAL;
   for (int i = 0; i < 3; ++i) {
-    least = std::min(least, least_on_side(q.corner[i], q.side[i], q.corner[kNext[i]]));
+    least = std::min(least, least_on_side(q.corner[i], q.side[i], q.corner[kAfter[i]]));
   }
   return least;
 }
@@ -86,11 +86,11 @@ double least_squared_distance(const Patch& patch, const Vec3& from) {
   const Quartic square = lowered_square(patch, from);
   Quadratic near{square.corner, {}};
   for (int i = 0; i < 3; ++i) {
-    near.side[i] = 0.25 * (6 * square.side[i][1] - near.corner[i] - near.corner[kNext[i]]);
+    near.side[i] = 0.25 * (6 * square.side[i][1] - near.corner[i] - near.corner[kAfter[i]]);
   }
   double rest = 0;
   for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i], k = kPrevious[i];
+    const int j = kAfter[i], k = kBefore[i];
     rest = std::min({rest, square.side[i][0] - 0.5 * (near.corner[i] + near.side[i]),
                      square.side[i][2] - 0.5 * (near.corner[j] + near.side[i]),
                      square.inner[i] - (1.0 / 6) * (near.corner[i] + near.side[j] +
