@@ -28,10 +28,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also when a test imports this file
 
-from native.packaging import modules, needs, other_systems, pack, paths
-from native.packaging import repository as repo
-from native.packaging.blender import blender_python, find_blender
-from native.packaging.terminal import Failure, run, say, use_system_python
+from tools.packaging import modules, needs, other_systems, pack, paths
+from tools.packaging import repository as repo
+from tools.packaging.blender import blender_python, find_blender
+from tools.packaging.terminal import Failure, run, say, use_system_python
 from tests import parts
 from tests.demo import show
 

@@ -22,7 +22,7 @@ bl_info = {
     "category": "Object",
 }
 
-COMMIT = ""  # native/packaging fills it in for a development build
+COMMIT = ""  # tools/packaging fills it in for a development build
 __version__ = ".".join(str(part) for part in bl_info["version"]) + (COMMIT and f"+{COMMIT}")
 
 # The public names of library.py; a test compares the two lists.

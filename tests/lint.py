@@ -9,8 +9,8 @@ import subprocess
 from pathlib import Path
 from typing import Callable
 
-from native.packaging import paths
-from native.packaging.terminal import Failure, output_of, parallel_jobs, run, succeeds
+from tools.packaging import paths
+from tools.packaging.terminal import Failure, output_of, parallel_jobs, run, succeeds
 
 
 class Skip(Exception):
@@ -85,7 +85,7 @@ def changed() -> set[str]:
 
     A header counts for the unit of its name; the other units that include it are left to the full lint.
     """
-    names = changed_files("native")
+    names = changed_files("native", "lab/native")
     units = {
         (paths.ROOT / name).with_suffix(".cpp") for name in names if name.endswith((".cpp", ".h"))
     }

@@ -18,10 +18,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Callable, Optional
 
-from native.packaging import needs, pack, paths
-from native.packaging.blender import blender_python
-from native.packaging.modules import build_modules
-from native.packaging.terminal import (
+from tools.packaging import needs, pack, paths
+from tools.packaging.blender import blender_python
+from tools.packaging.modules import build_modules
+from tools.packaging.terminal import (
     Failure,
     build_preset,
     output_of,

@@ -14,7 +14,7 @@ SOURCES = Path("native/medial")
 
 @dataclass(frozen=True)
 class Mutation:
-    file: str  # below native/medial
+    file: str  # below native/medial; the methods of others are below lab/native
     old: str
     new: str
     breaks: str
@@ -23,7 +23,7 @@ class Mutation:
 
     @property
     def path(self) -> Path:
-        return SOURCES / self.file
+        return (Path("lab/native") if self.file.startswith("rivals/") else SOURCES) / self.file
 
     def applied(self, text: str) -> str:
         """The source with the mutation. Raises ValueError if `old` does not occur once."""

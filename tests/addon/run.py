@@ -25,9 +25,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from native.packaging import blender as private  # noqa: E402 - the line above makes it found
-from native.packaging import pack, paths  # noqa: E402
-from native.packaging.terminal import Failure  # noqa: E402
+from tools.packaging import blender as private  # noqa: E402 - the line above makes it found
+from tools.packaging import pack, paths  # noqa: E402
+from tools.packaging.terminal import Failure  # noqa: E402
 
 EXTENSION = f"bl_ext.user_default.{paths.PACKAGE}"
 

@@ -11,9 +11,9 @@ import tempfile
 from pathlib import Path
 from typing import Union
 
-from native.packaging import paths
-from native.packaging.blender import Blender
-from native.packaging.terminal import Failure, say
+from tools.packaging import paths
+from tools.packaging.blender import Blender
+from tools.packaging.terminal import Failure, say
 
 EXAMPLES = [
     ("suzanne", ["--subdivide", "3"]),

@@ -11,7 +11,7 @@ if [ ! -d "$folder" ]; then
   rm -rf "$folder.new"
   mmdebstrap --quiet --arch=arm64 --variant=extract \
     --include=python3,python3-numpy,python3-scipy,python3-pytest,python3-pytest-xdist bookworm "$folder.new" \
-    "$(cd "$here/../.." && python3 -c 'from native.packaging import debian; print(debian.mirror())')" >&2
+    "$(cd "$here/../.." && python3 -c 'from tools.packaging import debian; print(debian.mirror())')" >&2
   mv "$folder.new" "$folder"
 fi
 folder=$(cd "$folder" && pwd)

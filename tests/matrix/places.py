@@ -19,9 +19,9 @@ FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/
 READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT))
 
-from native.packaging.debian import mirror  # noqa: E402 - the line above makes it found
-from native.packaging.paths import BLENDERS as CHROOTS  # noqa: E402
-from native.packaging.terminal import Failure  # noqa: E402
+from tools.packaging.debian import mirror  # noqa: E402 - the line above makes it found
+from tools.packaging.paths import BLENDERS as CHROOTS  # noqa: E402
+from tools.packaging.terminal import Failure  # noqa: E402
 
 
 class UnavailableError(Exception):

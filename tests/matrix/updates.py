@@ -26,9 +26,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from native.packaging import pack, paths, repository  # noqa: E402 - the line above makes it found
-from native.packaging.blender import Blender  # noqa: E402
-from native.packaging.terminal import Failure, output_of  # noqa: E402
+from tools.packaging import pack, paths, repository  # noqa: E402 - the line above makes it found
+from tools.packaging.blender import Blender  # noqa: E402
+from tools.packaging.terminal import Failure, output_of  # noqa: E402
 
 ID = "medial_axis_test"  # of the repository, in Blender
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""build_addon.py and native/packaging: what they ask for, what they pack, what they refuse."""
+"""build_addon.py and tools/packaging: what they ask for, what they pack, what they refuse."""
 
 import ast
 import json
@@ -14,7 +14,7 @@ import zipfile
 import pytest
 
 import build_addon
-from native.packaging import (
+from tools.packaging import (
     check_module,
     licences,
     macho,
@@ -24,8 +24,8 @@ from native.packaging import (
     paths,
     presets,
 )
-from native.packaging.blender import Blender
-from native.packaging.terminal import Failure, python_that
+from tools.packaging.blender import Blender
+from tools.packaging.terminal import Failure, python_that
 
 ROOT = paths.ROOT
 
@@ -72,7 +72,7 @@ def test_help_is_there(command):
 
 def test_the_driver_runs_on_python_3_8():
     """Python's own parser finds no newer syntax in its files; the linter finds uses of a newer library."""
-    files = [ROOT / "build_addon.py", *(ROOT / "native" / "packaging").glob("*.py")]
+    files = [ROOT / "build_addon.py", *(ROOT / "tools" / "packaging").glob("*.py")]
     files += [ROOT / "tests" / name for name in ("parts.py", "lint.py", "demo/show.py")]
     for file in files:
         ast.parse(file.read_text(encoding="utf-8"), str(file), feature_version=(3, 8))
@@ -293,7 +293,7 @@ def test_development_builds_carry_their_commit_and_releases_do_not(sources, monk
     """In the names of the zips, in the manifest and in the package; a change that is not committed is said, too."""
     (sources / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\nCOMMIT = ""  # here\n')
     git = commit_sources(paths.ROOT)
-    terminal = sys.modules["native.packaging.terminal"]
+    terminal = sys.modules["tools.packaging.terminal"]
     monkeypatch.setattr(terminal, "ROOT", paths.ROOT)
     commit = paths.commit()
     assert re.fullmatch("g[0-9a-f]{8}", commit)

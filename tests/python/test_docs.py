@@ -23,7 +23,7 @@ pytestmark = pytest.mark.docs
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
-SOURCES = ("native", "blender_addon", "tests", "lab", "docs")
+SOURCES = ("native", "blender_addon", "tests", "tools", "lab", "docs")
 STARTS = ("", "native", "native/medial", "blender_addon", "blender_addon/core", "tests", "lab")
 TEXTS = {
     ".py",
@@ -161,9 +161,12 @@ def rows(page, head):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
 
 
+UNITS = (ROOT / "native" / "medial", ROOT / "lab" / "native")
+
+
 def header_of(unit):
     """The header of a unit, in its room or among the public ones."""
-    places = (ROOT / "native" / "medial" / unit, ROOT / "native/include/medial" / Path(unit).name)
+    places = (*(folder / unit for folder in UNITS), ROOT / "native/include/medial" / Path(unit).name)
     return next(path for place in places if (path := place.with_suffix(".h")).is_file())
 
 
@@ -173,7 +176,8 @@ def test_the_paper_is_found_in_the_code():
     assert len(table) > 20
     for paper, _, where, what, *_ in table:
         folders = {header_of(unit).parent for unit in SPAN.findall(where)}
-        folders |= {ROOT / "native" / "medial" / Path(unit).parent for unit in SPAN.findall(where)}
+        for unit in SPAN.findall(where):
+            folders |= {f for top in UNITS if (f := top / Path(unit).parent).is_dir()}
         folders.add(ROOT / "native" / "include" / "medial")
         paths = [path for folder in folders for path in folder.iterdir() if path.suffix in TEXTS]
         text = "".join(path.read_text(encoding="utf-8") for path in paths)
@@ -279,7 +283,6 @@ def in_the_sources(path):
 def test_pages_of_the_method_name_every_room_of_the_native_core():
     """The stages, and what follows an axis; the methods of others are no part of the method."""
     rooms = {path.name for path in (ROOT / "native" / "medial").iterdir() if path.is_dir()}
-    rooms -= {"rivals"}
     named = " ".join(path for stage in STAGES for path in code_of(stage))
     for page in ("thickness", "balls", "parts"):
         named += (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from native.packaging import (  # noqa: E402 - found through the line above
+from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     debian,
     headers,

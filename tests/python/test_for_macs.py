@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from native.packaging import (  # noqa: E402 - found through the line above
+from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     headers_for_macs,
     licences,
@@ -22,7 +22,7 @@ from native.packaging import (  # noqa: E402 - found through the line above
     paths,
     zig,
 )
-from native.packaging.terminal import Failure  # noqa: E402
+from tools.packaging.terminal import Failure  # noqa: E402
 
 SYSTEM = "/usr/lib/libSystem.B.dylib"
 NAME = "_medial.cpython-311-darwin.so"

@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from native.packaging import (  # noqa: E402 - found through the line above
+from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     headers_for_windows,
     licences,
@@ -25,7 +25,7 @@ from native.packaging import (  # noqa: E402 - found through the line above
     pe,
     zig,
 )
-from native.packaging.terminal import Failure  # noqa: E402
+from tools.packaging.terminal import Failure  # noqa: E402
 
 START, PLACE = 0x1000, 0x400  # of the only section, in memory and in the file
 TAKEN = {"python311.dll": ("PyList_New",), "KERNEL32.dll": ("VirtualAlloc", "Sleep")}

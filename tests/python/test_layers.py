@@ -244,14 +244,13 @@ MAY_INCLUDE = {
         *("base", "delaunay", "inside", "axis", "thickness", "cocone", "sampling", "walls"),
         "levels",
     },  # the analysis, on top
-    "rivals": {"base", "delaunay", "inside", "axis", "."},  # not in the shipped module
 }
 
 
 # The words that every room may use, and the public headers that only those who make what is in them see.
 VOCABULARY = {"types.h", "errors.h", "progress.h", "options.h"}
 PUBLIC = {
-    "medial_mesh.h": {"axis", "rivals"},
+    "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "faces.h": {"walls", "levels"},
     "hierarchy.h": {"collapse", "exact", "levels"},
@@ -262,7 +261,7 @@ PUBLIC = {
     "sampling.h": {"sampling"},
     "structure.h": {"structure"},
     "scan.h": {"scan"},
-    "analysis.h": {".", "rivals"},
+    "analysis.h": {"."},
 }
 
 
@@ -281,14 +280,13 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations, faces that cross, even sheets, wrapping, and balls of rivals; all set CGAL up alike."""
+    """Triangulations, faces that cross, even sheets, and wrapping; all set CGAL up alike."""
     units = (
         "delaunay/triangulation.cpp",
         "mesh/crossing_faces.cpp",
         "mesh/even_sheet.cpp",
         "mesh/polygon_triangles.cpp",
         "mesh/wrap.cpp",
-        "rivals/power_shape.cpp",
     )
     homes = [MEDIAL / unit for unit in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "base" / "cgal.h"}) == homes
@@ -306,8 +304,7 @@ def test_the_system_has_one_home():
 
 
 def test_pybind_and_python_have_one_home():
-    homes = {NATIVE / "python", NATIVE / "python" / "study"}
-    assert {path.parent for path in users_of("pybind11/", "Python.h")} == homes
+    assert {path.parent for path in users_of("pybind11/", "Python.h")} == {NATIVE / "python"}
 
 
 def test_tbb_and_openmp_have_no_home():

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""native/packaging/manual.py: the pages in the zip are whole, and every link and picture of theirs is there."""
+"""tools/packaging/manual.py: the pages in the zip are whole, and every link and picture of theirs is there."""
 
 import re
 
 import pytest
 
-from native.packaging import manual, paths
+from tools.packaging import manual, paths
 
 pytest.importorskip("markdown")
 pytestmark = pytest.mark.docs

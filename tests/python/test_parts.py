@@ -14,8 +14,8 @@ from types import SimpleNamespace
 import pytest
 
 import build_addon
-from native.packaging import needs, paths
-from native.packaging.terminal import Failure
+from tools.packaging import needs, paths
+from tools.packaging.terminal import Failure
 from tests import lint, parts
 from tests.addon.gui import drive
 

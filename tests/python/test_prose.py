@@ -17,7 +17,7 @@ from typing import NamedTuple
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PYTHON = ("blender_addon", "native", "tests", "lab")
+PYTHON = ("blender_addon", "native", "tools", "tests", "lab")
 CPP = ("native", "tests", "lab")
 
 RIDDLE = re.compile(

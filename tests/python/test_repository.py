@@ -7,8 +7,8 @@ import sys
 import pytest
 
 import build_addon
-from native.packaging import pack, paths, repository
-from native.packaging.terminal import Failure
+from tools.packaging import pack, paths, repository
+from tools.packaging.terminal import Failure
 
 # Stands in for a Blender that writes an index of some zips.
 GENERATOR = """

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from native.packaging import pack, paths, wheels
+from tools.packaging import pack, paths, wheels
 
 ROOT = Path(__file__).resolve().parents[2]
 LINUX = "lib/_medial.cpython-313-x86_64-linux-gnu.so"

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from native.packaging import pack  # noqa: E402 - found through the line above
+from tools.packaging import pack  # noqa: E402 - found through the line above
 
 MODULES = {  # by the artifact that a job of systems.yml uploads
     "modules-linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],

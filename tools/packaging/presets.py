@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the presets of the panel, as Blender writes such files itself: every setting, one a line.
 
-    python3 native/packaging/presets.py FOLDER
+    python3 tools/packaging/presets.py FOLDER
 
 Needs Python 3.10, because it reads the defaults from the add-on's settings.
 """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Refuses a compiled module that would not live well inside Blender, and prints what it needs.
 
-    python3 native/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
+    python3 tools/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
 
 A module must not need libraries that Blender brings too, must export its entry point alone, must call
 no function of the C library whose last bits differ from machine to machine, and must run on systems
@@ -20,7 +20,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from native.packaging import macho, paths, pe, zig
+from tools.packaging import macho, paths, pe, zig
 
 FORBIDDEN = re.compile(r"lib(tbb|gmp|mpfr|python)")
 # Functions whose last bits differ between C libraries and processors; base/portable_math.h has others for them.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The user pages of docs/ as plain web pages, for readers without a network; Python-Markdown converts them.
 
-    python3 native/packaging/manual.py FOLDER
+    python3 tools/packaging/manual.py FOLDER
 
 Only the pictures of the tutorial come along. Other pictures, and pages that are not in PAGES, lead nowhere offline, so
 a picture is left out and a link to another page becomes its text. mkdocs.yml describes the complete manual.
