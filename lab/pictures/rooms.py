@@ -9,12 +9,7 @@ import re
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-WIDE, HIGH, GAP, LEFT = (
-    158,
-    54,
-    10,
-    150,
-)  # of a box, between boxes, and to the left of them, in pixels
+WIDE, HIGH, GAP, LEFT = 158, 68, 10, 150  # pixels; LEFT is what the names of bands take
 COLUMNS = 6
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" width="{w}" height="{h}"
      font-family="DejaVu Sans, Verdana, Arial, sans-serif" font-size="14">
