@@ -28,12 +28,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also when a test imports this file
 
+from tests import parts
+from tests.demo import show
 from tools.packaging import modules, needs, other_systems, pack, paths
 from tools.packaging import repository as repo
 from tools.packaging.blender import blender_python, find_blender
 from tools.packaging.terminal import Failure, run, say, use_system_python
-from tests import parts
-from tests.demo import show
 
 # --- the commands
 

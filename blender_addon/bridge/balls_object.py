@@ -18,12 +18,12 @@ from ..core.cover.ball_cover import Balls
 from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
-from .attributes import RADIUS, read_vectors
 from .capsules_shown import add_capsules, is_capsules
-from .material import radius_material
+from .mesh.attributes import RADIUS, read_vectors
+from .mesh.material import radius_material
+from .mesh.write_mesh import new_mesh
 from .nodes.groups import add_coloured_balls, is_group
-from .output_object import Product, check_mode, place, remember
-from .write_mesh import new_mesh
+from .objects.output_object import Product, check_mode, place, remember
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

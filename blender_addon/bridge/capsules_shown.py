@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import bpy
 
-from .attributes import RADIUS
-from .material import radius_material
+from .mesh.attributes import RADIUS
+from .mesh.material import radius_material
 from .nodes.inputs import has_inputs
 from .nodes.tree import Tree
 

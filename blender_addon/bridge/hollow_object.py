@@ -11,7 +11,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.hollow.drain_hole import drain_hole
-from .output_object import (
+from .mesh.write_mesh import new_mesh
+from .objects.output_object import (
     Product,
     is_gone,
     new_object,
@@ -20,7 +21,6 @@ from .output_object import (
     replace_mesh,
     source_of,
 )
-from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

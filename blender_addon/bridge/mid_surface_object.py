@@ -10,12 +10,12 @@ import bpy
 import numpy as np
 
 from ..core.axis.colours import radius_range
-from .attributes import Attribute
-from .material import THICKNESS, thickness_material
-from .output_object import Product, follow_like, place, remember, source_of
-from .step_weights import write_steps
-from .thickness_object import carrier_of
-from .write_mesh import new_mesh
+from .mesh.attributes import Attribute
+from .mesh.material import THICKNESS, thickness_material
+from .mesh.step_weights import write_steps
+from .mesh.write_mesh import new_mesh
+from .objects.output_object import Product, follow_like, place, remember, source_of
+from .thickness.thickness_object import carrier_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -19,14 +19,14 @@ from ..core.errors import InvalidInputError
 from ..core.rebuild.solid_difference import SolidDifference, solid_difference
 from ..core.settings import Side
 from ..core.small_matrices import inverse, times
-from .axis_object import radius_range, settings_of
-from .colours import OF, remember_colours
-from .material import FLAT
+from .axis.axis_object import radius_range, settings_of
+from .axis.reduced_object import is_reduced
+from .mesh.colours import OF, remember_colours
+from .mesh.material import FLAT
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
-from .output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
-from .read_object import read_object
-from .reduced_object import is_reduced
+from .objects.output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
+from .objects.read_object import read_object
 
 if TYPE_CHECKING:
     from ..core.shape.shape import Shape

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.axis.known_box import Check, checks_of, compute_box
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
-from .write_mesh import new_axis_mesh
+from .mesh.write_mesh import new_axis_mesh
 
 
 def self_test() -> list[Check]:

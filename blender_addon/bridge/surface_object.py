@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .output_object import Product, place, remember
-from .write_mesh import new_mesh
+from .mesh.write_mesh import new_mesh
+from .objects.output_object import Product, place, remember
 
 if TYPE_CHECKING:
     import numpy as np

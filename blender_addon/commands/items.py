@@ -88,7 +88,7 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:
     """The objects of a file that Blender loads, frame by frame; None: of the file that is open."""
-    from ..bridge import read_scene
+    from ..bridge.objects import read_scene
 
     source = path or read_scene.open_file() or "unsaved.blend"
     stem = Path(source).stem

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every option, declared once as a field of a dataclass: default, range, unit, label and description.
 
-The command line (core/batch/option_words.py) and Blender's properties (ui/properties.py) are derived from these fields.
-Options of a machine are declared by MemoryLimit (core/machine/memory_limit.py).
+The command line (core/batch/option_words.py) and Blender's properties (ui/settings/properties.py) are derived from
+these fields. Options of a machine are declared by MemoryLimit (core/machine/memory_limit.py).
 
 Dey & Zhao, sect. 3: an edge is selected by Angle[theta] or Ratio[rho].
 """

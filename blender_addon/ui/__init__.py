@@ -9,47 +9,38 @@ from ..core.machine import native
 
 
 def _modules() -> tuple[ModuleType, ...]:
-    from . import (
-        apply_later,
-        asset_library,
+    from . import balls, hollow, mid_surface, rebuild, reduce
+    from .axis import (
         auto_update,
-        balls,
-        command,
         compute_sequence,
         convert_to_curve,
-        current_job,
         export_axis,
-        export_thickness,
-        guide,
-        hollow,
         import_points,
         inward_faces,
-        legend,
-        manual,
-        menus,
-        mid_surface,
         node_groups,
         operators,
-        panels,
         parts,
-        plain_words,
+        simplify_to_gap,
+    )
+    from .base import command, current_job, legend, manual, plain_words, show, translation
+    from .panels import menus, panels, settings_panels
+    from .settings import (
+        apply_later,
+        asset_library,
+        guide,
         preferences,
         presets,
         properties,
-        rebuild,
-        reduce,
         self_test_operator,
-        settings_panels,
-        show,
-        simplify_to_gap,
-        skeleton_operators,
-        skeleton_panel,
+    )
+    from .skeleton import skeleton_operators, skeleton_panel
+    from .thickness import (
+        export_thickness,
         thicken,
         thickness_limits,
         thickness_operators,
         thickness_panel,
         thickness_properties,
-        translation,
     )
 
     return (

@@ -5,6 +5,7 @@ from functools import partial
 
 import bpy
 
+from ..bridge.axis.read_axis import find_axis
 from ..bridge.balls_object import (
     COVERED,
     FARTHEST,
@@ -14,14 +15,15 @@ from ..bridge.balls_object import (
     is_balls,
     write_balls,
 )
-from ..bridge.output_object import is_gone, source_of
-from ..bridge.read_axis import find_axis
+from ..bridge.objects.output_object import is_gone, source_of
 from ..core.cover.ball_cover import cover_by_balls
 from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
-from .compute_operator import ComputeOperator
-from .figures import length_text
-from .preferences import memory_limit
-from .properties import (
+from .axis.compute_operator import ComputeOperator
+from .axis.figures import length_text
+from .base.tab import Closed, draws_buttons, settings_column
+from .base.translation import say
+from .settings.preferences import memory_limit
+from .settings.properties import (
     SamplingProperties,
     copy_settings,
     draw_sampling,
@@ -29,8 +31,6 @@ from .properties import (
     settings_from,
     with_options,
 )
-from .tab import Closed, draws_buttons, settings_column
-from .translation import say
 
 
 @with_options(BALL_OPTIONS)

@@ -13,10 +13,10 @@ from ..bridge.mid_surface_object import (
 from ..core.mid_surface.mid_surface import mid_surface
 from ..core.samples.density import share_text
 from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
-from .alone import Alone
-from .preferences import memory_limit
-from .properties import settings_from, with_options
-from .wall_operator import WallOperator
+from .base.alone import Alone
+from .settings.preferences import memory_limit
+from .settings.properties import settings_from, with_options
+from .thickness.wall_operator import WallOperator
 
 
 @with_options(MID_SURFACE_OPTIONS)

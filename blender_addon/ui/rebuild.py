@@ -3,8 +3,9 @@
 
 import bpy
 
+from ..bridge.axis.read_axis import find_axis
 from ..bridge.nodes.inputs import row_of
-from ..bridge.read_axis import find_axis
+from ..bridge.objects.step_back import are_back, step_back
 from ..bridge.rebuilt_object import (
     LARGEST,
     MEAN,
@@ -15,13 +16,12 @@ from ..bridge.rebuilt_object import (
     rebuilt_of,
     unrebuilt,
 )
-from ..bridge.step_back import are_back, step_back
 from ..core.errors import MedialAxisError
-from .alone import Alone
-from .plain_words import told
-from .select_made import bring_into_view_layer
-from .tab import Closed, settings_column
-from .translation import say
+from .base.alone import Alone
+from .base.plain_words import told
+from .base.select_made import bring_into_view_layer
+from .base.tab import Closed, settings_column
+from .base.translation import say
 
 _INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
 

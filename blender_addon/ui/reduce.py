@@ -6,19 +6,19 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..bridge.output_object import is_gone, source_of
-from ..bridge.read_axis import find_axis, read_axis
-from ..bridge.read_object import read_object
+from ..bridge.axis.read_axis import find_axis, read_axis
+from ..bridge.axis.reduced_object import check_reduced_writable, is_reduced, write_reduced
+from ..bridge.objects.output_object import is_gone, source_of
+from ..bridge.objects.read_object import read_object
 from ..bridge.rebuilt_object import in_frame_of, unrebuilt
-from ..bridge.reduced_object import check_reduced_writable, is_reduced, write_reduced
 from ..core.axis.medial_axis import MedialAxis
 from ..core.rebuild.reduce import reduce_axis, reduced_difference
 from ..core.rebuild.solid_difference import PointDifference
 from ..core.shape.shape import Shape
-from . import current_job
-from .alone import Alone
-from .compute_operator import ComputeOperator
-from .translation import say
+from .axis.compute_operator import ComputeOperator
+from .base import current_job
+from .base.alone import Alone
+from .base.translation import say
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ def floors(rooms: dict[str, tuple[str, list[str]]]) -> list[list[str]]:
 
 def words_of(what: str) -> list[str]:
     """Return the beginning of a description in at most three lines of a box."""
-    plain = re.split(r"[;:]| \(", what.replace("`", ""))[0].split()
+    plain = re.split(r"[;:]| \(", re.sub("[`*]", "", what))[0].split()
     lines = [""]
     for word in plain:
         if len(lines[-1]) + len(word) > 25:
@@ -83,9 +83,17 @@ def main() -> None:
     boxes = lambda rooms, rows: [
         [(r, rooms[r][0]) for r in row] for row in rows
     ]  # a room and what it does
-    above = [["ui"], ["bridge", "bridge/nodes", "commands"]]
+
+    def below(top: str) -> dict[str, tuple[str, list[str]]]:
+        """Return the rooms of a folder; the files in it itself lie above its other rooms."""
+        rooms = {room: row for room, row in python.items() if room.split("/")[0] == top}
+        return {**rooms, top: (rooms[top][0], list(rooms))}
+
     bands = [
-        ("blender_addon/", boxes(python, above)),
+        *(
+            (f"{top}/", boxes(below(top), floors(below(top))))
+            for top in ("ui", "commands", "bridge")
+        ),
         ("core/, no bpy", boxes(core, floors(core))),
         ("native/python/", [[("_medial", "pybind11 and nothing else")]]),
         ("native/medial/", boxes(native, floors(native))),

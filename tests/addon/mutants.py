@@ -302,7 +302,7 @@ def oriented(random, thing):
         return
     normals = random.normal(size=(len(thing.data.vertices), 3))
     normals[rows(random, normals)] = chosen(random, (np.nan, 0.0, np.inf, 1e30))
-    addon("bridge.attributes").add_normals(thing.data.attributes, normals)
+    addon("bridge.mesh.attributes").add_normals(thing.data.attributes, normals)
 
 
 def attributed(random, thing):

@@ -107,7 +107,7 @@ def scan(name="Scan", points=None, normals=None):
     """A mesh of vertices alone, as a scan is imported; a clean ellipsoid if nothing else is said."""
     thing = link(name, on_ellipsoid()[0] if points is None else points)
     if normals is not None:
-        addon("bridge.attributes").add_normals(thing.data.attributes, normals)
+        addon("bridge.mesh.attributes").add_normals(thing.data.attributes, normals)
     return thing
 
 
@@ -153,7 +153,7 @@ def attribute(mesh, name):
 
 def result_of(source):
     """The result object of a source, or None."""
-    return addon("bridge.axis_object").result_of(source)
+    return addon("bridge.axis.axis_object").result_of(source)
 
 
 def analyses():
@@ -228,4 +228,6 @@ def reports(capfd):
 
 def medial_objects():
     """All result objects in the file."""
-    return [thing for thing in bpy.data.objects if addon("bridge.axis_object").is_result(thing)]
+    return [
+        thing for thing in bpy.data.objects if addon("bridge.axis.axis_object").is_result(thing)
+    ]

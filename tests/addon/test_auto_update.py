@@ -13,7 +13,7 @@ from scene import addon, compute, ellipsoid, positions, result_of, select
 def modules():
     """Take the modules of the add-on that is enabled now: other tests enable it again."""
     global auto, live
-    auto, live = addon("ui.auto_update"), addon("bridge.live_result")
+    auto, live = addon("ui.axis.auto_update"), addon("bridge.axis.live_result")
 
 
 @pytest.fixture
@@ -23,7 +23,7 @@ def pair():
     compute(sampling="VERTICES")
     result = result_of(source)
     result.medial_axis_auto_update = True
-    addon("bridge.wires").wires_group()  # as in a window, where the switch makes it
+    addon("bridge.nodes.wires").wires_group()  # as in a window, where the switch makes it
     return source, result
 
 
@@ -47,8 +47,8 @@ def update(result, coarse=False):
 
 
 def computed(read, settings):
-    limit = addon("ui.preferences").memory_limit()
-    return addon("bridge.shown_axis").compute_shown(read.shape, settings, read.look, limit)
+    limit = addon("ui.settings.preferences").memory_limit()
+    return addon("bridge.axis.shown_axis").compute_shown(read.shape, settings, read.look, limit)
 
 
 def test_it_is_off_at_first_and_watches_nothing_in_the_background():

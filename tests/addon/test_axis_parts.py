@@ -46,7 +46,7 @@ def test_attributes_name_the_parts_of_a_box(result):
     assert set(seam.tolist()) == {0, 1, 3}
     assert np.count_nonzero(kind == 2) == 4 and np.count_nonzero(kind == 4) == 8
     assert set(attribute(mesh, "ma_curve").tolist()) == set(range(-1, 24))
-    counts = addon("bridge.structure_object").counts_on(result)
+    counts = addon("bridge.axis.structure_object").counts_on(result)
     assert list(counts.values()) == [13, 12, 0, 12, 4, 8]
 
 
@@ -79,7 +79,7 @@ def test_the_facets_of_a_sheet_look_the_same_way(result):
 
 
 def test_the_axis_is_read_back_as_it_was_computed(result):
-    axis = addon("bridge.read_axis").read_axis(result)
+    axis = addon("bridge.axis.read_axis").read_axis(result)
     assert (axis.generators[:, 0] < axis.generators[:, 1]).all()
     first = axis.face_vertices[axis.face_offsets[:-1]]
     assert np.array_equal(first, np.minimum.reduceat(axis.face_vertices, axis.face_offsets[:-1]))
@@ -96,7 +96,7 @@ def test_colours_by_part_are_live(result):
     values = np.empty(4 * len(colour.data), np.float32)
     colour.data.foreach_get("color", values)
     assert len(np.unique(values.reshape(-1, 4), axis=0)) == 13
-    assert addon("bridge.colours").colour_range(result) is None
+    assert addon("bridge.mesh.colours").colour_range(result) is None
     panel.by_part = False
     assert result.data.color_attributes["ma_color"].domain == "POINT"
 
@@ -105,7 +105,7 @@ def test_a_part_can_be_selected(result):
     select(result)
     bpy.ops.object.medial_axis_select_part(number=12)
     assert result.mode == "EDIT"
-    assert addon("bridge.parts_objects").part_of_active_face(result) in range(13)
+    assert addon("bridge.axis.parts_objects").part_of_active_face(result) in range(13)
     bpy.ops.object.mode_set(mode="OBJECT")
     part = attribute(result.data, "ma_part")
     selected = np.array([polygon.select for polygon in result.data.polygons])
@@ -121,7 +121,7 @@ def test_parts_become_objects_and_are_replaced(result):
     select(result)
     for _ in range(2):
         bpy.ops.object.medial_axis_separate_parts()
-        parts = addon("bridge.parts_objects").parts_of(result)
+        parts = addon("bridge.axis.parts_objects").parts_of(result)
         assert len(parts) == 13
         (collection,) = {thing.users_collection[0] for thing in parts}
         assert len(collection.objects) == 13
@@ -164,7 +164,7 @@ def test_a_changed_axis_has_no_table(result):
     bpy.ops.object.medial_axis_select_part(number=12)
     bpy.ops.mesh.delete(type="FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert addon("bridge.read_axis").read_axis(result).structure is None
+    assert addon("bridge.axis.read_axis").read_axis(result).structure is None
 
 
 def test_the_panel_of_parts_stays_in_its_place(result):

@@ -75,7 +75,7 @@ def operator_axis(name, frame):
     select(bpy.data.objects[name])
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     result = bpy.context.object
-    axis = addon("bridge.read_axis").read_axis(result)
+    axis = addon("bridge.axis.read_axis").read_axis(result)
     matrix = np.array(result.matrix_world)
     return axis, axis.vertices @ matrix[:3, :3].T + matrix[:3, 3]
 

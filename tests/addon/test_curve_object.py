@@ -195,7 +195,7 @@ def test_normals_of_a_box_are_those_of_its_bisectors():
 def test_the_normals_of_sheets_do_not_say_what_is_inside():
     source = ellipsoid()
     compute(form="CLEAN", sampling="SURFACE", samples=1_500)
-    read_normals = addon("bridge.attributes").read_normals
+    read_normals = addon("bridge.mesh.attributes").read_normals
     assert read_normals(result_of(source).data.attributes) is None
 
 

@@ -65,7 +65,7 @@ def many_balls(source):
 def thickness(source):
     select(source)
     bpy.ops.object.medial_axis_thickness(limit=0.3)
-    return addon("bridge.thickness_object").carrier_of(source)
+    return addon("bridge.thickness.thickness_object").carrier_of(source)
 
 
 @renders
@@ -93,7 +93,7 @@ def test_parts_as_objects_render_the_colours_of_their_axis(tmp_path):
     compute(**EVEN)
     select(result_of(source))
     assert bpy.ops.object.medial_axis_separate_parts() == {"FINISHED"}
-    parts = addon("bridge.parts_objects").parts_of(result_of(source))
+    parts = addon("bridge.axis.parts_objects").parts_of(result_of(source))
     flat = max(parts, key=lambda part: np.ptp(positions(part.data), axis=0)[:2].min())
     assert_coloured(rendered(flat, tmp_path))
 
@@ -104,7 +104,7 @@ def test_a_rebuilt_solid_keeps_the_range_of_its_axis():
     made = rebuilt(source)
     duplicate = result_of(source).copy()
     bpy.context.scene.collection.objects.link(duplicate)
-    colour_range = addon("bridge.colours").colour_range
+    colour_range = addon("bridge.mesh.colours").colour_range
     before = colour_range(made)
     assert before == colour_range(result_of(source)) == colour_range(duplicate)
     source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())

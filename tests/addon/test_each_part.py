@@ -38,13 +38,13 @@ def test_five_boxes_give_five_axes_in_one_collection():
     assert collection.name == "Boxes Medial Axes" and len(collection.objects) == 5
     assert all(thing.parent == source and thing["ma_pieces"] == 1 for thing in found)
     assert "1 of 6 connected parts are sheets" in bpy.context.scene.medial_axis.note
-    assert addon("bridge.axis_object").result_of(source) is None
+    assert addon("bridge.axis.axis_object").result_of(source) is None
 
 
 def test_the_whole_and_its_parts_are_updated_by_themselves():
     source = boxes(3, sheet=False)
     compute(**{**EACH, "each_part": False})
-    whole = addon("bridge.axis_object").result_of(source)
+    whole = addon("bridge.axis.axis_object").result_of(source)
     assert whole["ma_pieces"] == 2  # two overlap
     assert whole["ma_source_mesh"] == (
         "3 connected parts; 2 of them overlapping others; 1 of them apart from all others"
@@ -84,10 +84,10 @@ def test_a_refusal_and_a_cancelled_job_leave_nothing(monkeypatch):
         compute(**EACH)
     select(boxes(2))
     with monkeypatch.context() as few:
-        few.setattr(addon("ui.operators"), "MOST", 1)
+        few.setattr(addon("ui.axis.operators"), "MOST", 1)
         with pytest.raises(RuntimeError, match="at most 1 connected parts, found 2"):
             compute(**EACH)
-    operators = addon("ui.compute_operator")
+    operators = addon("ui.axis.compute_operator")
 
     def cancelled(task):
         raise addon("core.errors").Cancelled("cancelled")

@@ -113,7 +113,7 @@ def test_npz_holds_all_attributes(result, tmp_path):
     assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
     assert arrays["generators"].shape == (len(mesh.polygons), 2)
-    source = addon("bridge.output_object").source_of(result)
+    source = addon("bridge.objects.output_object").source_of(result)
     samples = world_positions(source)[
         arrays["generators"]
     ]  # the axis lies halfway between its generators
@@ -123,8 +123,8 @@ def test_npz_holds_all_attributes(result, tmp_path):
 
 
 def test_read_axis_is_the_computed_axis_in_float32(result):
-    read = addon("bridge.read_axis").read_axis(result)
-    analysis, results = addon("core.axis.compute"), addon("bridge.axis_object")
+    read = addon("bridge.axis.read_axis").read_axis(result)
+    analysis, results = addon("core.axis.compute"), addon("bridge.axis.axis_object")
     axis = analysis.refilter(result[results.ANALYSIS], results.settings_of(result))
     for name in ("face_offsets", "face_vertices", "side", "generators", "unbounded"):
         assert np.array_equal(getattr(read, name), getattr(axis, name)), name
@@ -135,7 +135,7 @@ def test_read_axis_is_the_computed_axis_in_float32(result):
 
 def test_source_exports_its_result(result, tmp_path):
     export(tmp_path / "result.off")
-    select(addon("bridge.output_object").source_of(result))
+    select(addon("bridge.objects.output_object").source_of(result))
     export(tmp_path / "source.off")
     assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
 
@@ -271,7 +271,7 @@ def test_export_does_not_change_the_result(result, tmp_path):
 
 
 def test_menu_entry():
-    draw = addon("ui.export_axis").menu_func_export
+    draw = addon("ui.axis.export_axis").menu_func_export
     assert draw in bpy.types.TOPBAR_MT_file_export._dyn_ui_initialize()
     shown = {}
     layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
@@ -291,11 +291,11 @@ def test_menu_entry():
     ],
 )
 def test_file_browser_keeps_name_and_format_together(path, shown, chosen, expected):
-    cls = addon("ui.export_axis").EXPORT_SCENE_OT_medial_axis
+    cls = addon("ui.axis.export_axis").EXPORT_SCENE_OT_medial_axis
 
     class Browser:
         filepath, file_format, _shown_format = path, chosen, shown
-        extensions = addon("ui.export_axis")._EXTENSIONS
+        extensions = addon("ui.axis.export_axis")._EXTENSIONS
         filename_ext = property(lambda self: self.extensions[self.file_format])
 
     browser = Browser()

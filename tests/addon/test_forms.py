@@ -111,8 +111,10 @@ def test_what_is_read_back_is_what_was_computed():
     clean(smooth=False)
     result = result_of(source)
     core = addon("core.axis.compute")
-    axis = core.refilter(result["ma_analysis"], addon("bridge.axis_object").settings_of(result))
-    again = addon("bridge.read_axis").read_axis(result)
+    axis = core.refilter(
+        result["ma_analysis"], addon("bridge.axis.axis_object").settings_of(result)
+    )
+    again = addon("bridge.axis.read_axis").read_axis(result)
     for name in ("face_offsets", "face_vertices", "generators", "edges", "side"):
         assert np.array_equal(getattr(again, name), getattr(axis, name)), name
     for name in ("exact", "exact_radius", "sheet", "erosion"):
@@ -167,7 +169,7 @@ def test_detail_of_a_curve_acts_at_once():
     panel.detail = 1.0
     assert np.array_equal(positions(result.data), whole) and analyses() == before
     del result["ma_detail"]  # as of a version without it
-    assert addon("bridge.axis_object").settings_of(result).detail == 1.0
+    assert addon("bridge.axis.axis_object").settings_of(result).detail == 1.0
 
 
 @pytest.mark.parametrize("side", ["OUTER", "BOTH"])
@@ -253,7 +255,7 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
     clean(smooth=False)
     mesh = result_of(source).data
     export(source, tmp_path / "Pair_0001.npz")
-    write_sequence = addon("bridge.sequence_objects").write_sequence
+    write_sequence = addon("bridge.skeleton.sequence_objects").write_sequence
     (thing,) = write_sequence("Pair", {1: Path(tmp_path / "Pair_0001.npz")}).objects
     assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0
     assert np.array_equal(positions(thing.data), positions(mesh))

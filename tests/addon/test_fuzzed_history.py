@@ -80,8 +80,8 @@ class History:
         setattr(panel, name, self.rng.choice(CHOICES[name]))
         result = result_of(source())
         if result is not None and not panel.note:
-            kept = addon("bridge.axis_object").settings_of(result)
-            wanted = addon("ui.properties").settings_from(panel)
+            kept = addon("bridge.axis.axis_object").settings_of(result)
+            wanted = addon("ui.settings.properties").settings_from(panel)
             assert getattr(kept, name) == getattr(wanted, name), name
         self.push()
 
@@ -203,7 +203,7 @@ def test_fuzzed_history(seed):
     if history.known["analysed"] is None:
         assert result is None
         return
-    settings = addon("bridge.axis_object").settings_of(result)
+    settings = addon("bridge.axis.axis_object").settings_of(result)
     found, wanted = figures(result), directly(*history.known["analysed"], settings)
     assert found.keys() == wanted.keys()
     assert [name for name in wanted if found[name] != wanted[name]] == []

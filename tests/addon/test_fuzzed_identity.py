@@ -94,7 +94,7 @@ def tries(seed):
         return False
     if "ma_thickness" not in source.data.attributes:
         return False
-    carrier = addon("bridge.thickness_object").carrier_of(source)
+    carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
     measured = addon("core.thickness.thickness").kept_measurement(carrier["ma_thickness_key"])
     rows, written = travelled(source), attribute(source.data, "ma_thickness")
     values = np.float32(measured.of_vertices)

@@ -49,7 +49,7 @@ def read(path, *more, **options):
 
 
 def normals_of(thing):
-    return addon("bridge.attributes").read_normals(thing.data.attributes)
+    return addon("bridge.mesh.attributes").read_normals(thing.data.attributes)
 
 
 def test_points(folder, capfd):
@@ -254,7 +254,7 @@ def test_undo_is_one_step(folder, name):
 
 
 def test_menu_entries():
-    draw = addon("ui.import_points").menu_func_import
+    draw = addon("ui.axis.import_points").menu_func_import
     assert draw in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
     shown = {}
     layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
@@ -269,7 +269,7 @@ def test_disabling_removes_operators_and_menu_entries():
     def present():
         entries = bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
         return [
-            f"{MODULE}.ui.import_points" in [function.__module__ for function in entries],
+            f"{MODULE}.ui.axis.import_points" in [function.__module__ for function in entries],
             hasattr(bpy.types, "IMPORT_MESH_OT_points_xyz"),
             hasattr(bpy.types, "IMPORT_MESH_OT_points_off"),
         ]
@@ -296,7 +296,7 @@ def test_no_other_importer_is_replaced():
 
 def test_dropped_files_are_not_asked_for_again():
     """Blender's helper shows the options alone when it knows the files; before 4.1 there is no dropping."""
-    shared, asked = addon("ui.import_points").ImportPoints, []
+    shared, asked = addon("ui.axis.import_points").ImportPoints, []
     manager = SimpleNamespace(fileselect_add=lambda _operator: asked.append("files"))
     context = SimpleNamespace(window_manager=manager)
 
@@ -312,7 +312,7 @@ def test_dropped_files_are_not_asked_for_again():
 
 
 def test_files_can_be_dropped_where_blender_takes_them():
-    module = addon("ui.import_points")
+    module = addon("ui.axis.import_points")
     made = [module.drop_handler(object, operator) for operator in module.OPERATORS]
     assert [(cls.bl_import_operator, cls.bl_file_extensions) for cls in made] == [
         ("import_mesh.points_xyz", ".xyz;.xyzn"),

@@ -70,7 +70,7 @@ def test_quads_and_open_meshes():
     cube = bpy.context.object
     cube.data.polygons[2].flip()
     assert inward("SELECT") == {"FINISHED"} and selected(cube.data) == (2,)
-    assert addon("bridge.inward_faces").inward_polygons(cube.data).sum() == 1
+    assert addon("bridge.thickness.inward_faces").inward_polygons(cube.data).sum() == 1
 
 
 def test_without_a_mesh():

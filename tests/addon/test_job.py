@@ -54,7 +54,7 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
 
 
 def test_a_draft_comes_first_and_the_stages_have_four_words():
-    core, doing = addon("core.machine.job"), addon("ui.plain_words").doing
+    core, doing = addon("core.machine.job"), addon("ui.base.plain_words").doing
     tasks = [core.Task("One", task().work, lambda _: "quick"), task(20_000, name="Two")]
     job, words, fractions = core.Job(tasks), set(), []
     while not job.done:
@@ -115,7 +115,7 @@ def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
 
 def test_second_run_is_refused_while_one_runs():
     ellipsoid()
-    running = addon("ui.current_job")
+    running = addon("ui.base.current_job")
     job = running.start([task(300_000)], "medial axis")
     with pytest.raises(RuntimeError, match="A medial axis is being computed"):
         bpy.ops.object.medial_axis()
@@ -132,25 +132,25 @@ def test_sliders_rest_while_a_job_runs():
     source = ellipsoid()
     compute()
     count = len(result_of(source).data.polygons)
-    addon("ui.current_job").start([task(300_000)], "medial axis")
+    addon("ui.base.current_job").start([task(300_000)], "medial axis")
     bpy.context.scene.medial_axis.theta = 1.2
     assert len(result_of(source).data.polygons) == count
-    addon("ui.current_job").stop()
+    addon("ui.base.current_job").stop()
 
 
 def test_loading_a_file_stops_the_job_and_forgets_analyses():
     ellipsoid()
     compute()
     assert len(addon("core.machine.cache").CACHE) == 1
-    addon("ui.current_job").start([task(300_000)], "medial axis")
+    addon("ui.base.current_job").start([task(300_000)], "medial axis")
     assert threads()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert threads() == [] and addon("ui.current_job").job() is None
+    assert threads() == [] and addon("ui.base.current_job").job() is None
     assert len(addon("core.machine.cache").CACHE) == 0 and medial_objects() == []
 
 
 def test_disabling_the_addon_stops_the_job():
-    addon("ui.current_job").start([task(300_000)], "medial axis")
+    addon("ui.base.current_job").start([task(300_000)], "medial axis")
     bpy.ops.preferences.addon_disable(module=MODULE)
     assert threads() == []
     bpy.ops.preferences.addon_enable(module=MODULE)
@@ -158,7 +158,7 @@ def test_disabling_the_addon_stops_the_job():
 
 def test_source_deleted_before_the_result_is_written(capfd):
     source = ellipsoid()
-    found = addon("ui.selected_sources").Source(
+    found = addon("ui.axis.selected_sources").Source(
         source.name, getattr(source, "session_uid", None), None, None
     )
     assert found.find() == source

@@ -43,7 +43,7 @@ def colours_of(mesh):
 @pytest.mark.parametrize("dense", [True, False], ids=["on the source", "on a copy"])
 def test_one_heat_map_is_seen_at_a_time(dense):
     """Thin is warm in both, and the legend is that of the one that was asked for last."""
-    heat, of = addon("bridge.heat_map"), addon("bridge.thickness_object")
+    heat, of = addon("bridge.thickness.heat_map"), addon("bridge.thickness.thickness_object")
     source = ellipsoid(segments=5 if dense else 2)
     bpy.ops.object.medial_axis(select_result=False, samples=2_000)
     axis = result_of(source)
@@ -66,7 +66,7 @@ def test_one_heat_map_is_seen_at_a_time(dense):
 
 
 def test_a_constant_radius_is_one_figure(monkeypatch):
-    figures, drawn = addon("ui.figures"), []
+    figures, drawn = addon("ui.axis.figures"), []
     bpy.ops.mesh.primitive_uv_sphere_add()
     source = bpy.context.object
     compute(**EVEN)
@@ -83,7 +83,7 @@ def test_a_constant_radius_is_one_figure(monkeypatch):
 
 
 def test_a_note_is_told_with_its_object():
-    properties, panel = addon("ui.properties"), bpy.context.scene.medial_axis
+    properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
     flat, other = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), ellipsoid()
     select(flat)
     with pytest.raises(RuntimeError):
@@ -109,9 +109,9 @@ def test_result_is_coloured_by_radius():
     core = addon("core.axis.colours")
     start, end = core.radius_range(radius)
     np.testing.assert_allclose(colours_of(result.data), core.colours(radius, start, end), atol=1e-5)
-    name, *ends = addon("bridge.colours").colour_range(result)
+    name, *ends = addon("bridge.mesh.colours").colour_range(result)
     assert name == "ma_radius" and ends == pytest.approx([start, end])
-    assert tuple(result.color) == pytest.approx(addon("bridge.material").FLAT)
+    assert tuple(result.color) == pytest.approx(addon("bridge.mesh.material").FLAT)
 
 
 def test_colours_follow_the_sliders():
@@ -130,13 +130,13 @@ def test_scripts_turn_colours_off():
     compute(colours=False, **EVEN)
     result = result_of(source)
     assert "ma_color" not in result.data.attributes
-    assert addon("bridge.colours").colour_range(result) is None
+    assert addon("bridge.mesh.colours").colour_range(result) is None
 
 
 def test_report_is_coloured_by_epsilon():
     source = ellipsoid()
     assert bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN) == {"FINISHED"}
-    report = addon("bridge.report_object").report_of(source)
+    report = addon("bridge.axis.report_object").report_of(source)
     epsilon = attribute(report.data, "ma_epsilon")
     expected = addon("core.axis.colours").colours(epsilon, 0.0, 0.5)
     np.testing.assert_allclose(colours_of(report.data), expected, atol=1e-5)
@@ -148,12 +148,12 @@ def test_report_lies_on_a_source_that_can_show_it_and_beside_one_that_cannot():
     for source in (fine, coarse):
         select(source)
         assert bpy.ops.object.medial_axis_sampling_report(**EVEN) == {"FINISHED"}
-    report_of = addon("bridge.report_object").report_of
+    report_of = addon("bridge.axis.report_object").report_of
     assert report_of(fine) is None and report_of(coarse) is not None
     assert "ma_epsilon" in fine.data.attributes and len(colours_of(fine.data))
     assert "ma_epsilon" not in coarse.data.attributes
     select(fine)
-    assert addon("ui.properties").shown_report(bpy.context) == fine
+    assert addon("ui.settings.properties").shown_report(bpy.context) == fine
     compute(**EVEN)  # a source with a report is still a source
     assert result_of(fine) is not None
 
@@ -234,7 +234,7 @@ def test_a_source_that_goes_leaves_its_result_where_it_was():
 
 
 def test_a_flat_source_carries_nothing():
-    follow = addon("bridge.output_object").follow
+    follow = addon("bridge.objects.output_object").follow
     source, other = ellipsoid("One"), ellipsoid("Two")
     follow(other, source, Matrix.Diagonal((1, 1, 0, 1)), True)
     assert other.parent is None
@@ -273,13 +273,13 @@ def test_panel_finds_the_axis_of_whatever_is_selected():
     bpy.ops.object.tight_cocone_surface()
     select(source)
     compute(**EVEN)
-    report = addon("bridge.report_object").report_of(source)
+    report = addon("bridge.axis.report_object").report_of(source)
     surface = addon("bridge.surface_object").surface_of(source)
     for thing in (source, result_of(source), report, surface):
         if thing is None:
             continue
         select(thing)
-        assert addon("ui.properties").shown_result(bpy.context) == result_of(source)
+        assert addon("ui.settings.properties").shown_result(bpy.context) == result_of(source)
 
 
 # --- the outer axis and small pieces
@@ -336,7 +336,7 @@ def test_small_islands_are_hidden_on_demand_and_counted():
 
 
 def wires_on(result):
-    return addon("bridge.wires").wires_of(result)
+    return addon("bridge.nodes.wires").wires_of(result)
 
 
 def curve_of_a_torus():
@@ -422,7 +422,7 @@ def test_lone_points_are_counted_and_shown_on_demand():
 
 
 def test_many_wires_have_tubes_of_few_sides_or_none():
-    wires, inputs = addon("bridge.wires"), addon("bridge.nodes.inputs")
+    wires, inputs = addon("bridge.nodes.wires"), addon("bridge.nodes.inputs")
     assert wires.detail_of(100, 1) == (12, 3)
     assert wires.detail_of(50_000, 3_000) == (4, 1)
     assert wires.detail_of(200_000, 20_000) == (0, 0)
@@ -531,10 +531,10 @@ def test_panel_says_which_condition_binds():
 
 
 def test_guide_is_offered_until_it_was_used_or_dismissed():
-    guide = addon("ui.guide")
+    guide = addon("ui.settings.guide")
     preferences = bpy.context.preferences.addons[addon().__name__].preferences
     preferences.property_unset("guided")
-    assert guide._wanted() == addon("ui.manual").has(guide.PAGE)
+    assert guide._wanted() == addon("ui.base.manual").has(guide.PAGE)
     if guide._wanted():
         bpy.ops.wm.medial_axis_tutorial(dismiss=True)
         assert not guide._wanted()
@@ -654,6 +654,6 @@ def test_under_the_curve_is_the_way_to_one_of_few_branches():
     for form, expected in (("CURVE", True), ("CLEAN", False)):
         shown.clear()
         panel.form = form
-        addon("ui.form_panel").draw_form(bpy.context, Layout(), panel)
+        addon("ui.panels.form_panel").draw_form(bpy.context, Layout(), panel)
         assert shown[0] == "form" and ("object.medial_axis_skeleton" in shown) == expected
     panel.property_unset("form")

@@ -127,7 +127,7 @@ def test_a_block_has_no_sheets():
 def test_it_is_seen_also_where_the_thickness_was_measured_on_a_copy():
     source = plate()
     assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
-    copy = addon("bridge.thickness_object").carrier_of(source)
+    copy = addon("bridge.thickness.thickness_object").carrier_of(source)
     assert copy != source and copy.show_in_front
     select(source)
     made = unsolidify()

@@ -88,7 +88,7 @@ def attempt(seed):
         assert again == answer
     elif single:
         assert contents() == before, f"after {answer} something was left"
-    assert addon("ui.current_job").job() is None
+    assert addon("ui.base.current_job").job() is None
     return answer
 
 

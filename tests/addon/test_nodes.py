@@ -138,7 +138,7 @@ def test_filter_by_limb_takes_wires_only():
     assert len(np.unique(limb)) > 2
     limit = float(np.median(limb[limb > 0]))
     modifier = with_group(result, "FILTER")
-    tubes = addon("bridge.wires").wires_of(result)
+    tubes = addon("bridge.nodes.wires").wires_of(result)
     assert list(result.modifiers) == [modifier, tubes], "what shows wires comes last"
     tubes.show_viewport = False
     assert len(evaluated(result).edges) == len(result.data.edges)

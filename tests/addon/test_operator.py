@@ -517,7 +517,7 @@ def operator_of(**settings):
     values = {
         name: getattr(option.default, "name", option.default) for name, option in options.items()
     }
-    kind = addon("ui.operators").OBJECT_OT_medial_axis
+    kind = addon("ui.axis.operators").OBJECT_OT_medial_axis
     own = {name: getattr(kind, name) for name in ("draft", "write", "write_draft", "_show_draft")}
     thing = SimpleNamespace(**(values | settings))
     for name, function in own.items():
@@ -531,7 +531,7 @@ def drafted(source, **settings):
     work = operator.draft(source, shape)
     if work is None:
         return None
-    found = addon("ui.selected_sources").Source(
+    found = addon("ui.axis.selected_sources").Source(
         source.name, None, shape.frame, source.matrix_world.copy()
     )
     outcome = addon("core.machine.job").run_task(addon("core.machine.job").Task("", work))
@@ -542,11 +542,11 @@ def drafted(source, **settings):
 
 def read(source):
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    return addon("bridge.read_object").read_object(source, depsgraph)
+    return addon("bridge.objects.read_object").read_object(source, depsgraph)
 
 
 def test_a_first_click_shows_a_draft_whose_place_the_exact_axis_takes():
-    figures = addon("ui.figures")
+    figures = addon("ui.axis.figures")
     source = suzanne(levels=0)
     draft = drafted(source)
     assert draft["ma_draft"] and draft["ma_points"] < 5_000 and draft.parent == source

@@ -36,12 +36,12 @@ from scene import addon
     ],
 )
 def test_sentences_of_the_library_become_one_line(kind, sentence, line):
-    assert addon("ui.plain_words").in_one_line(sentence, kind) == line
+    assert addon("ui.base.plain_words").in_one_line(sentence, kind) == line
 
 
 def test_the_kind_and_the_name_are_those_of_the_object():
     bpy.ops.object.text_add()
-    words, thing = addon("ui.plain_words"), bpy.context.object
+    words, thing = addon("ui.base.plain_words"), bpy.context.object
     flat = "Expected faces that span a volume, found all of them in one plane; give them thickness"
     assert words.in_one_line(f"'{thing.name}': {flat}") == "This text is flat: give it Extrude."
     other = "Expected points, found none; add some, or change the modifiers that remove them"
@@ -59,11 +59,13 @@ def test_no_error_of_the_sources_shows_its_grammar():
     ]
     assert len(found) > 3
     for sentence in found:
-        assert not addon("ui.plain_words").in_one_line(sentence).startswith("Expected"), sentence
+        assert not addon("ui.base.plain_words").in_one_line(sentence).startswith("Expected"), (
+            sentence
+        )
 
 
 def test_warnings_are_what_was_found_in_few_letters():
-    words = addon("ui.plain_words")
+    words = addon("ui.base.plain_words")
     assert (
         words.warned("the surface is open at 84 edges: inside was guessed")
         == "Openings were closed"
@@ -72,7 +74,7 @@ def test_warnings_are_what_was_found_in_few_letters():
 
 
 def test_a_computation_says_what_it_does_in_one_word():
-    doing = addon("ui.plain_words").doing
+    doing = addon("ui.base.plain_words").doing
     assert [doing(stage) for stage in ("Sharp edges", "Crisp places", "Fire", "Wires")] == [
         "Sampling",
         "Building",

@@ -37,13 +37,15 @@ def point_cloud(points, normals=None, name="Cloud"):
     thing.data.attributes["position"].data.foreach_set("vector", vectors)
     thing.data.update_tag()
     if normals is not None:
-        addon("bridge.attributes").add_normals(thing.data.attributes, normals[:count])
+        addon("bridge.mesh.attributes").add_normals(thing.data.attributes, normals[:count])
     select(thing)
     return thing
 
 
 def shape_of(thing):
-    return addon("bridge.read_object").read_object(thing, bpy.context.evaluated_depsgraph_get())
+    return addon("bridge.objects.read_object").read_object(
+        thing, bpy.context.evaluated_depsgraph_get()
+    )
 
 
 def to_points(source):
@@ -83,9 +85,9 @@ def test_point_cloud_gives_an_inner_axis():
     assert result.name == "Cloud Medial Axis" and result["ma_side"] == "INNER"
     assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
     assert set(attribute(result.data, "ma_side")) == {1}
-    assert addon("ui.properties").shown_result(bpy.context) == result
+    assert addon("ui.settings.properties").shown_result(bpy.context) == result
     select(source)
-    assert addon("ui.properties").shown_result(bpy.context) == result
+    assert addon("ui.settings.properties").shown_result(bpy.context) == result
     bpy.context.scene.medial_axis.theta = 0.6
     assert result["ma_theta"] == pytest.approx(0.6)
 

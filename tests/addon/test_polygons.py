@@ -16,7 +16,7 @@ def mesh_object(points, faces):
 
 def triangles_read(thing):
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    return addon("bridge.read_object").read_object(thing, depsgraph).triangles
+    return addon("bridge.objects.read_object").read_object(thing, depsgraph).triangles
 
 
 def star(count, z):

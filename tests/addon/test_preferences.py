@@ -42,7 +42,7 @@ def page(whole=True):
     region = SimpleNamespace(width=10_000)
     system = SimpleNamespace(ui_scale=1.0)
     context = SimpleNamespace(region=region, preferences=SimpleNamespace(system=system))
-    draw = addon("ui.preferences").MedialAxisPreferences.draw
+    draw = addon("ui.settings.preferences").MedialAxisPreferences.draw
     owner = bpy.context.preferences.addons[MODULE].preferences
     shown = SimpleNamespace(
         layout=layout, bl_rna=owner.bl_rna, **dict.fromkeys(owner.bl_rna.properties.keys(), 0)
@@ -54,7 +54,7 @@ def page(whole=True):
 
 @pytest.fixture(autouse=True)
 def no_last_test():
-    addon("ui.self_test_operator")._last.clear()
+    addon("ui.settings.self_test_operator")._last.clear()
 
 
 def test_page_names_what_is_installed():
@@ -98,7 +98,7 @@ def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
     monkeypatch.setattr(native, "_module", None)
     with pytest.raises(RuntimeError, match="Failed: Expected the compiled module for"):
         bpy.ops.wm.medial_axis_self_test()
-    assert not addon("ui.self_test_operator").last()[0].passed
+    assert not addon("ui.settings.self_test_operator").last()[0].passed
 
 
 def moved(axis, by):

@@ -35,7 +35,7 @@ def set_all(values):
 
 
 def shown():
-    return addon("ui.properties").settings_from(bpy.context.scene.medial_axis)
+    return addon("ui.settings.properties").settings_from(bpy.context.scene.medial_axis)
 
 
 def expected(changes):
@@ -52,7 +52,7 @@ def expected(changes):
 def drawn(monkeypatch):
     """Names and files that the menu of presets shows."""
     files = {}
-    panel = addon("ui.presets").VIEW3D_PT_medial_axis_presets
+    panel = addon("ui.settings.presets").VIEW3D_PT_medial_axis_presets
 
     class Menu:
         preset_subdir = panel.preset_subdir

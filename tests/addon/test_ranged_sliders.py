@@ -19,8 +19,8 @@ def shown_row(name):
     """The property that the slider shows, and whether it is there to be moved."""
     drawn = SimpleNamespace(enabled=True, prop=lambda _panel, name, slider: shown.append(name))
     drawn.row, shown = lambda align: drawn, []
-    result = addon("ui.properties").shown_result(bpy.context)
-    addon("ui.ranged_sliders").draw_slider(bpy.context, drawn, name, result)
+    result = addon("ui.settings.properties").shown_result(bpy.context)
+    addon("ui.base.ranged_sliders").draw_slider(bpy.context, drawn, name, result)
     return shown[0], drawn.enabled
 
 

@@ -361,10 +361,10 @@ def test_refusal_while_another_computation_runs_names_it():
     points, _ = on_ellipsoid(300_000)
     work = addon("core.rebuild.reconstruction").reconstruct
     task = addon("core.machine.job").Task("Big", lambda progress: work(points, progress))
-    addon("ui.current_job").start([task], "surface")
+    addon("ui.base.current_job").start([task], "surface")
     for operator in ("tight_cocone_surface", "medial_axis"):
         refuse("A surface is being computed; wait", operator=operator)
-    addon("ui.current_job").stop()
+    addon("ui.base.current_job").stop()
 
 
 def test_mirrored_source_is_still_outward():
@@ -378,7 +378,7 @@ def test_mirrored_source_is_still_outward():
 def test_panel_knows_the_surface():
     source = scan()
     reconstruct()
-    properties = addon("ui.properties")
+    properties = addon("ui.settings.properties")
     assert properties.shown_surface(bpy.context) == surface_of(source)
     assert properties.shown_result(bpy.context) is None
     select(source)

@@ -25,7 +25,7 @@ from test_nodes import evaluated, volume
 
 
 def reduced_of(source):
-    return addon("bridge.reduced_object").reduced_of(source)
+    return addon("bridge.axis.reduced_object").reduced_of(source)
 
 
 def reduce(source, vertices):

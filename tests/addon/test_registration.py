@@ -47,16 +47,18 @@ def present():
         "sequence import": hasattr(bpy.types, "IMPORT_SCENE_OT_medial_axis_sequence"),
         "sequence panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sequence"),
         "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
-        "sequence menu": f"{MODULE}.ui.compute_sequence"
+        "sequence menu": f"{MODULE}.ui.axis.compute_sequence"
         in menu_texts(bpy.types.TOPBAR_MT_file_import),
         "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
         "sampling panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sampling"),
         "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
         "settings": hasattr(bpy.types.Scene, "medial_axis"),
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
-        "object menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
-        "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
-        "export menu": f"{MODULE}.ui.export_axis" in menu_texts(bpy.types.TOPBAR_MT_file_export),
+        "object menu": f"{MODULE}.ui.panels.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
+        "context menu": f"{MODULE}.ui.panels.menus"
+        in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
+        "export menu": f"{MODULE}.ui.axis.export_axis"
+        in menu_texts(bpy.types.TOPBAR_MT_file_export),
         "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
     }
 
@@ -189,7 +191,7 @@ def test_what_does_not_apply_is_grey():
 
 
 def test_rounded_limits_and_defaults_mean_the_exact_numbers():
-    exact = addon("ui.properties")._exact
+    exact = addon("ui.settings.properties")._exact
     theta = addon("core.settings").OPTIONS["theta"]
     panel = bpy.context.scene.medial_axis
     assert panel.theta != theta.default

@@ -58,7 +58,7 @@ def figure(name="Figure", tail=False):
 def make(source, **settings):
     select(source)
     assert bpy.ops.object.medial_axis_armature(**settings) == {"FINISHED"}
-    return addon("bridge.armature_object").rig_of(source)
+    return addon("bridge.skeleton.armature_object").rig_of(source)
 
 
 def shown(source):

@@ -95,7 +95,7 @@ def test_few_rows_before_the_first_click_and_after_it(newcomer):
 def test_hollow_and_unsolidify_need_no_measurement():
     select(suzanne(levels=0))
     found = Layout()
-    panel = addon("ui.thickness_panel").VIEW3D_PT_medial_axis_thickness
+    panel = addon("ui.thickness.thickness_panel").VIEW3D_PT_medial_axis_thickness
     panel.draw(SimpleNamespace(layout=found), seen())
     drawn = {text for row in found.rows for text in row}
     assert {"object.medial_axis_unsolidify", "object.medial_axis_hollow"} <= drawn

@@ -224,7 +224,7 @@ def test_metaballs_together():
     part = bpy.context.object  # of the same surface, which belongs to the first
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     assert result_of(part) == result_of(ball)
-    assert addon("ui.shown").shown_thing(bpy.context) == result_of(ball)
+    assert addon("ui.axis.shown").shown_thing(bpy.context) == result_of(ball)
     assert positions(result_of(ball).data)[:, 0].min() < -1.2
 
 
@@ -323,7 +323,7 @@ def test_budget_is_kept_and_said():
 
 def test_kept_vertices_are_samples():
     source = ellipsoid(segments=2)
-    report_of = addon("bridge.report_object").report_of
+    report_of = addon("bridge.axis.report_object").report_of
     bpy.ops.object.medial_axis_sampling_report(
         sampling="SURFACE", samples=1_000, keep_vertices=True, smooth=False
     )
@@ -442,7 +442,7 @@ def test_sliders_work_on_samples():
     panel.theta = 1.2
     assert len(result.data.polygons) < facets and analyses() == count and panel.note == ""
     assert result["ma_samples"] == 3_000 and result["ma_sampling"] == "SURFACE"
-    kept = addon("bridge.axis_object").settings_of(result)
+    kept = addon("bridge.axis.axis_object").settings_of(result)
     assert (kept.samples, kept.smooth, kept.sampling.name) == (3_000, True, "SURFACE")
 
 
@@ -458,7 +458,7 @@ def test_export_after_sampling(tmp_path):
     source = result["ma_source"]
     select(source)
     bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE", samples=1_000)
-    samples = positions(addon("bridge.report_object").report_of(source).data)
+    samples = positions(addon("bridge.axis.report_object").report_of(source).data)
     first = axis["face_vertices"][axis["face_offsets"][:-1]]
     for end in (0, 1):
         away = np.linalg.norm(axis["vertices"][first] - samples[axis["generators"][:, end]], axis=1)
@@ -468,7 +468,9 @@ def test_export_after_sampling(tmp_path):
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.6])
 def test_cancel_works_in_every_pass(delay):
     source = thin_and_thick()
-    shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
+    shape = addon("bridge.objects.read_object").read_object(
+        source, bpy.context.evaluated_depsgraph_get()
+    )
     settings = addon("core.settings")
     wanted = settings.Settings(
         sampling=settings.SamplingMode.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
@@ -487,7 +489,9 @@ def test_cancel_works_in_every_pass(delay):
 
 def test_progress_is_one_bar_over_all_passes():
     source = thin_and_thick()
-    shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
+    shape = addon("bridge.objects.read_object").read_object(
+        source, bpy.context.evaluated_depsgraph_get()
+    )
     settings = addon("core.settings")
     wanted = settings.Settings(sampling=settings.SamplingMode.ADAPTIVE, samples=3_000)
     work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)

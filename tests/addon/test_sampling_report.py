@@ -29,7 +29,7 @@ def report(source, **settings):
     select(source)
     options = {"target": "COPY"} | settings
     assert bpy.ops.object.medial_axis_sampling_report(**options) == {"FINISHED"}
-    return addon("bridge.report_object").report_of(source)
+    return addon("bridge.axis.report_object").report_of(source)
 
 
 def cylinder():
@@ -130,8 +130,8 @@ def test_selected_report_stands_for_its_source():
     found = report(source, **EVEN)
     assert bpy.context.selected_objects == [found]
     assert bpy.ops.object.medial_axis(**EVEN) == {"FINISHED"}
-    assert addon("bridge.axis_object").result_of(source) is not None
-    assert addon("bridge.axis_object").result_of(found) is None
+    assert addon("bridge.axis.axis_object").result_of(source) is not None
+    assert addon("bridge.axis.axis_object").result_of(found) is None
     bpy.data.objects.remove(source)
     select(found)
     refuse("is a report whose source is gone", operator=REPORT)
@@ -169,7 +169,7 @@ def test_epsilon_on_the_source():
     source = ellipsoid(segments=3)
     select(source)
     assert bpy.ops.object.medial_axis_sampling_report(target="SOURCE", **EVEN) == {"FINISHED"}
-    assert addon("bridge.report_object").report_of(source) is None
+    assert addon("bridge.axis.report_object").report_of(source) is None
     values = attribute(source.data, "ma_epsilon")
     found = report(source, **EVEN)
     samples, epsilon = positions(found.data), attribute(found.data, "ma_epsilon")
@@ -231,7 +231,7 @@ def test_sparse_samples_are_a_warning(capfd):
 def test_panel_speaks_of_the_report():
     source = cylinder()
     found = report(source, **EVEN)
-    shown = addon("ui.properties").shown_report
+    shown = addon("ui.settings.properties").shown_report
     assert shown(bpy.context) == found
     select(source)
     assert shown(bpy.context) == found

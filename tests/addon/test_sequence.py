@@ -74,7 +74,7 @@ def test_fast_leaves_out_exact_places(growing, tmp_path):
 def test_attributes_come_from_the_file(growing, tmp_path):
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="3")
     axis = addon("core.files.load_axis").load_axis(tmp_path / "Body_0003.npz")
-    back = addon("bridge.read_axis").read_axis(play().objects[0])
+    back = addon("bridge.axis.read_axis").read_axis(play().objects[0])
     for name in ("radius", "theta", "rho"):
         np.testing.assert_allclose(getattr(back, name), getattr(axis, name), rtol=1e-6)
     np.testing.assert_array_equal(back.generators, axis.generators)
@@ -307,7 +307,7 @@ def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_pa
 
 
 def test_names_of_files():
-    by_frame = addon("bridge.sequence_objects").by_frame
+    by_frame = addon("bridge.skeleton.sequence_objects").by_frame
     paths = [Path(f"{name}.npz") for name in ("a_0002", "a_0010", "b.001", "c-0005", "d_-03", "e7")]
     found = {name: list(frames) for name, frames in by_frame(paths).items()}
     assert found == {"a": [2, 10], "b": [1], "c": [5], "d": [-3], "e": [7]}

@@ -55,7 +55,7 @@ def open_oriented():
     """An open mesh whose points have normals."""
     source = opened()
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
-    addon("bridge.attributes").add_normals(source.data.attributes, normals)
+    addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
     return source
 
 
@@ -90,7 +90,7 @@ def test_automatic_says_which_and_why(make, sides, sentence):
     expected = module.MedialAnalysis(
         positions(source.data),
         triangles_of(source.data) if sides == "SURFACE" else None,
-        normals=addon("bridge.attributes").read_normals(source.data.attributes)
+        normals=addon("bridge.mesh.attributes").read_normals(source.data.attributes)
         if sides == "NORMALS"
         else None,
         sides=getattr(module.SidesFrom, sides),
@@ -102,7 +102,7 @@ def test_automatic_says_which_and_why(make, sides, sentence):
 def test_chosen_source_is_used_although_all_are_there(sides):
     source = ellipsoid()
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
-    addon("bridge.attributes").add_normals(source.data.attributes, normals)
+    addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
     compute(sides=sides)
     result = result_of(source)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
@@ -115,7 +115,7 @@ def test_all_sources_agree_on_a_clean_shape():
     for sides in ("SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"):
         source = ellipsoid(sides, segments=4)
         normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
-        addon("bridge.attributes").add_normals(source.data.attributes, normals)
+        addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
         compute(sides=sides)
         axes.append(set(map(tuple, facets(result_of(source)))))
     common, either = set.intersection(*axes), set.union(*axes)
@@ -184,8 +184,8 @@ def test_normals_turn_with_the_object(scale, capfd):
     source.rotation_euler = (0.4, -0.8, 1.3)
     select(source)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    shape = addon("bridge.read_object").read_object(source, depsgraph)
-    rest = addon("bridge.read_object").split_transform(np.array(source.matrix_world))[1]
+    shape = addon("bridge.objects.read_object").read_object(source, depsgraph)
+    rest = addon("bridge.objects.read_object").split_transform(np.array(source.matrix_world))[1]
     unit = np.linalg.solve(rest, shape.points.T).T
     unmoved = unit / np.square([1.0, 0.7, 0.5])
     outward = np.linalg.solve(rest.T, unmoved.T).T
@@ -289,7 +289,7 @@ def test_facets_without_area_are_counted():
     bpy.ops.mesh.primitive_torus_add(major_segments=96, minor_segments=24)
     compute()
     result = bpy.context.object
-    axis = addon("bridge.read_axis").read_axis(result)
+    axis = addon("bridge.axis.read_axis").read_axis(result)
     assert result["ma_zero_area"] == axis.zero_area > 0
 
 

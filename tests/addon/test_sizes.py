@@ -40,7 +40,7 @@ def test_every_operator(size):
         bpy.context.view_layer.update()
         for thing in bpy.data.objects:
             assert np.isfinite(np.array(thing.matrix_world)).all(), (name, thing.name)
-            if addon("bridge.output_object").source_of(thing) == source:
+            if addon("bridge.objects.output_object").source_of(thing) == source:
                 assert_same_place(thing, source, size)
     assert result_of(source)["ma_radius_max"] == pytest.approx(0.5 * size, rel=0.05)
 

@@ -25,11 +25,11 @@ from support.meshes import capsule, join
 
 
 def skeleton_of(source):
-    return addon("bridge.skeleton_object").skeleton_of(source)
+    return addon("bridge.skeleton.skeleton_object").skeleton_of(source)
 
 
 def armature_of(source):
-    return addon("bridge.armature_object").armature_of(source)
+    return addon("bridge.skeleton.armature_object").armature_of(source)
 
 
 def cross(name="Cross"):
@@ -370,7 +370,7 @@ def test_where_heat_fails_the_axis_steps_in(capfd):
     )
     bpy.data.objects.remove(source)
     select(twice)
-    rig = addon("ui.skeleton_operators")
+    rig = addon("ui.skeleton.skeleton_operators")
     kept, rig.bind_by_heat = rig.bind_by_heat, lambda *_: False
     try:
         make_armature(bind="AUTOMATIC")

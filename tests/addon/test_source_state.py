@@ -21,7 +21,7 @@ def two_metaballs():
 
 def has_changed(output):
     bpy.context.view_layer.update()
-    state = addon("bridge.source_state")
+    state = addon("bridge.objects.source_state")
     state._checked.clear()
     return state.has_changed(output, bpy.context.view_layer.depsgraph)
 
@@ -132,7 +132,7 @@ def test_thickness_skeleton_and_balls_know_their_source():
     bpy.ops.object.medial_axis_thickness(select_result=False, sampling="SURFACE")
     bpy.ops.object.medial_axis_skeleton(select_result=False)
     bpy.ops.object.medial_axis_balls(select_result=False)
-    source_of = addon("bridge.output_object").source_of
+    source_of = addon("bridge.objects.output_object").source_of
     made = [thing for thing in bpy.data.objects if source_of(thing) == source]
     assert len(made) == 3 and not any(map(has_changed, made))
     move_a_vertex(source)
@@ -169,7 +169,7 @@ def test_what_was_rebuilt_or_reduced_follows_as_the_axis_does():
     select(result)
     bpy.ops.object.medial_axis_reduce(vertices=10)
     rebuilt = addon("bridge.rebuilt_object").rebuilt_of(result)
-    reduced = addon("bridge.reduced_object").reduced_of(source)
+    reduced = addon("bridge.axis.reduced_object").reduced_of(source)
     source.location, source.rotation_euler = (1.5, -2, 0.5), (0.3, 0.2, 0.1)
     bpy.context.view_layer.update()
     for made in (rebuilt, reduced):
@@ -188,7 +188,7 @@ def other_values(option):
 
 
 def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for():
-    properties, settings = addon("ui.properties"), addon("core.settings")
+    properties, settings = addon("ui.settings.properties"), addon("core.settings")
     panel = bpy.context.scene.medial_axis
     source = torus()
 
@@ -222,7 +222,7 @@ def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for()
 
 def test_what_automatic_turns_on_by_itself_is_no_change_of_settings():
     """Between walls that nearly touch, samples lie in pairs on flat faces, whatever was asked."""
-    properties, panel = addon("ui.properties"), bpy.context.scene.medial_axis
+    properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
     bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=1.0, depth=0.01)
     source = bpy.context.object
     source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))

@@ -32,7 +32,7 @@ def test_a_changed_group_of_wires_does_not_end_later_computations():
     compute_of(source)
     result = result_of(source)
     assert result["ma_analysis"] and result.modifiers[0].node_group != group
-    assert addon("bridge.wires").width_of(result.modifiers[0]) is not None
+    assert addon("bridge.nodes.wires").width_of(result.modifiers[0]) is not None
 
 
 def compute_of(source):
@@ -60,7 +60,7 @@ def test_crafted_properties_do_not_stop_the_sliders(name, value):
     panel.theta = 0.35
     panel.theta = 0.3
     assert "Traceback" not in panel.note
-    settings = addon("bridge.axis_object").settings_of(result)
+    settings = addon("bridge.axis.axis_object").settings_of(result)
     assert 0 < settings.theta < 1.6
     select(source)
     compute()

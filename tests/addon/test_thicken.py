@@ -49,14 +49,14 @@ def test_a_plate_gets_the_limit_and_keeps_its_outline():
 def test_it_is_measured_again_and_not_outdated():
     thing = plate(cuts=7)
     bpy.ops.object.medial_axis_thickness(limit=LIMIT)
-    of = addon("bridge.thickness_object")
+    of = addon("bridge.thickness.thickness_object")
     assert of.carrier_of(thing)[of.SHARE] == pytest.approx(1.0)
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
     carrier = of.carrier_of(thing)
     assert carrier[of.MINIMUM] == pytest.approx(LIMIT, rel=2e-4) and carrier[of.SHARE] == 0.0
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    assert not addon("bridge.source_state").has_changed(carrier, depsgraph)
+    assert not addon("bridge.objects.source_state").has_changed(carrier, depsgraph)
 
 
 def test_a_second_click_adds_to_the_first_and_the_factor_takes_it_back():

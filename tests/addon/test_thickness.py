@@ -17,7 +17,7 @@ def measure(source, **wanted):
     """Run the operator on a source; what carries the thickness."""
     select(source)
     assert bpy.ops.object.medial_axis_thickness(**wanted) == {"FINISHED"}
-    return addon("bridge.thickness_object").carrier_of(source)
+    return addon("bridge.thickness.thickness_object").carrier_of(source)
 
 
 def torus(name="Torus"):
@@ -68,7 +68,7 @@ def test_dense_source_carries_its_thickness_itself():
     assert len(values) == len(mesh.vertices) and 0.4 < np.median(values) < 0.82
     assert mesh.color_attributes.active_color.name == "ma_color"
     assert len(thin_faces(source)) == len(mesh.polygons)
-    scale = addon("bridge.thickness_object").scale_on(source)
+    scale = addon("bridge.thickness.thickness_object").scale_on(source)
     assert (scale.low, scale.limit) == (0.0, pytest.approx(0.6, rel=1e-5)) and scale.high > 0.89
     assert sum(source["ma_thickness_histogram"]) == pytest.approx(1.0, abs=0.01)
 
@@ -213,7 +213,7 @@ def test_usual_limits_follow_the_unit_of_the_scene():
         units.scale_length = scale
         assert bpy.ops.scene.medial_axis_thickness_limit(millimetres=1.2) == {"FINISHED"}
         assert settings.limit == pytest.approx(limit)
-    note = addon("ui.thickness_limits").unit_note
+    note = addon("ui.thickness.thickness_limits").unit_note
     units.scale_length = 1.0
     assert note(bpy.context, source) == ""
     source.scale = (80.0, 80.0, 80.0)
@@ -222,7 +222,7 @@ def test_usual_limits_follow_the_unit_of_the_scene():
 
 
 def test_the_legend_has_bars():
-    pixels = np.reshape(addon("ui.legend")._pixels(((0.1, 0.2, 0.3), 4)), (32, 32, 4))
+    pixels = np.reshape(addon("ui.base.legend")._pixels(((0.1, 0.2, 0.3), 4)), (32, 32, 4))
     assert (pixels[:8, :, 3] == 1.0).all() and (pixels[8:, :, 3] == 0.0).all()
 
 
@@ -294,7 +294,7 @@ def test_several_objects_each_have_their_own():
     first, second = torus("First"), box()
     select(first, second)
     assert bpy.ops.object.medial_axis_thickness(limit=0.5) == {"FINISHED"}
-    carrier_of = addon("bridge.thickness_object").carrier_of
+    carrier_of = addon("bridge.thickness.thickness_object").carrier_of
     assert carrier_of(first) == first and carrier_of(second)["ma_source"] == second
 
 
@@ -344,7 +344,7 @@ def test_thickness_is_of_the_vertex_that_has_it(kind):
     """Looked up by place: the value of each vertex is that of the measured place where it lies."""
     source = reordered(kind)
     assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
-    carrier = addon("bridge.thickness_object").carrier_of(source)
+    carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
     values = attribute(carrier.data, "ma_thickness")
     places = positions(carrier.data)
     height = 2 * 0.2 * np.sqrt(np.maximum(0, 1 - (places[:, 0]) ** 2 - (places[:, 1] / 0.7) ** 2))
@@ -363,7 +363,7 @@ def test_thickness_is_of_the_vertex_that_has_it(kind):
 def test_weights_and_parts_are_of_the_vertex_that_has_them(kind):
     """The bone with most weight is one that is near, also where a modifier reorders the vertices."""
     source = reordered(kind)
-    rows = addon("bridge.evaluated_rows").row_of_vertices(source)
+    rows = addon("bridge.mesh.evaluated_rows").row_of_vertices(source)
     bpy.context.view_layer.update()
     evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     there, here = positions(evaluated)[rows], positions(source.data)
@@ -396,7 +396,7 @@ def test_thickness_of_what_is_no_mesh_is_on_a_copy(add):
     if source.type == "CURVE":
         source.data.bevel_depth = 0.2
     assert bpy.ops.object.medial_axis_thickness(samples=2000) == {"FINISHED"}
-    carrier = addon("bridge.thickness_object").carrier_of(source)
+    carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
     assert carrier != source and carrier["ma_thickness_minimum"] > 0
 
 
@@ -404,7 +404,7 @@ def test_minimum_is_seen_from_near_also_where_much_is_thin():
     """A plate is thin everywhere, and what is worth seeing is a few times as large as it is thick."""
     carrier = measure(box((1.0, 1.0, 0.1)), limit=0.2)
     assert carrier["ma_thickness_area"] > 1.0
-    _, size = addon("bridge.thin_selection").least_of(carrier)
+    _, size = addon("bridge.thickness.thin_selection").least_of(carrier)
     least = carrier["ma_thickness_minimum"]
     assert 4 * least <= size <= 10 * least < 1.4
 
@@ -440,7 +440,7 @@ def test_one_menu_has_what_f3_looks_for():
         def operator_menu_enum(self, name, _property, **_):
             shown.append(name)
 
-    menu = addon("ui.menus").VIEW3D_MT_medial_axis
+    menu = addon("ui.panels.menus").VIEW3D_MT_medial_axis
     menu.draw(SimpleNamespace(layout=Layout()), bpy.context)
     verbs = {
         f"object.{name}"
@@ -465,5 +465,5 @@ def test_metaballs_of_one_family_are_one_source(capfd):
     select(bpy.context.object, first)
     assert bpy.ops.object.medial_axis(form="CLEAN") == {"FINISHED"}
     assert "Expected points" not in capfd.readouterr().out
-    is_result = addon("bridge.axis_object").is_result
+    is_result = addon("bridge.axis.axis_object").is_result
     assert [o["ma_source"] for o in bpy.data.objects if is_result(o)] == [first]

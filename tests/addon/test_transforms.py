@@ -131,7 +131,7 @@ def test_animated_constraint_is_seen():
 
 @pytest.mark.parametrize("name", PLACES)
 def test_split_transform_gives_a_rotation_and_a_symmetric_rest(name):
-    split = addon("bridge.read_object").split_transform
+    split = addon("bridge.objects.read_object").split_transform
     world = np.array(PLACES[name], np.float64)
     frame, rest = split(world)
     rotation = frame[:3, :3]
@@ -145,7 +145,7 @@ def test_split_transform_gives_a_rotation_and_a_symmetric_rest(name):
 @pytest.mark.parametrize("scale", [(-1, 1, 1), (-2, -2, -2), (1, 1, -3), (0.5, -2, 0.5)], ids=str)
 def test_rounding_does_not_turn_the_mirror(scale):
     """One transform read twice, with another last bit of float32, is split in one way."""
-    split = addon("bridge.read_object").split_transform
+    split = addon("bridge.objects.read_object").split_transform
     turn = np.array(Euler((0.4, -0.8, 1.3)).to_matrix(), np.float64)
     world = np.eye(4)
     world[:3, :3] = turn * scale
@@ -157,7 +157,7 @@ def test_rounding_does_not_turn_the_mirror(scale):
 
 
 def test_rotation_alone_leaves_the_points_exactly_as_they_are():
-    split = addon("bridge.read_object").split_transform
+    split = addon("bridge.objects.read_object").split_transform
     random = np.random.default_rng(5)
     for _ in range(100):
         turn = Euler(random.uniform(-math.pi, math.pi, 3)).to_matrix().to_4x4()

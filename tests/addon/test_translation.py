@@ -9,11 +9,11 @@ from scene import MODULE, addon, ellipsoid, link, select
 
 
 def entries():
-    return addon("ui.translation").languages()["de_DE"]
+    return addon("ui.base.translation").languages()["de_DE"]
 
 
 def say(text):
-    return addon("ui.translation").say(text)
+    return addon("ui.base.translation").say(text)
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def test_translations_have_as_many_places_as_texts():
     for text, other in entries().items():
         assert text.count("{}") == other.count("{}"), text
         assert other and other == other.strip(), text
-    file = addon("ui.translation")._FOLDER / "de_DE.po"
+    file = addon("ui.base.translation")._FOLDER / "de_DE.po"
     assert file.read_text(encoding="utf-8").count('\nmsgid "') == len(entries()) + 1  # none twice
 
 
@@ -44,13 +44,13 @@ def test_english_is_left_as_it_is():
 
 
 def test_english_sentences_are_not_looked_up(monkeypatch):
-    module = addon("ui.translation")
+    module = addon("ui.base.translation")
     monkeypatch.setattr(module, "_said", lambda *words: pytest.fail("looked up"))
     assert say("1 of 2: Poles") == "1 of 2: Poles"
 
 
 def test_every_language_says_the_probe_in_another_way():
-    module = addon("ui.translation")
+    module = addon("ui.base.translation")
     said = [module.PROBE, *(texts[module.PROBE] for texts in module.languages().values())]
     assert len(set(said)) == len(said) >= 2
 
@@ -62,10 +62,10 @@ def test_properties_have_our_words_and_not_those_of_blender(german):
         bpy.context.scene.medial_axis.bl_rna,
         bpy.context.preferences.addons[MODULE].preferences.bl_rna,
     )
-    context = addon("ui.translation").CONTEXT
+    context = addon("ui.base.translation").CONTEXT
     for name in ("sampling", "side", "smooth", "samples", "cache_size"):
         found = [owner.properties[name] for owner in owners if name in owner.properties]
-        expected = context if addon("ui.translation").IN_CONTEXT else "*"
+        expected = context if addon("ui.base.translation").IN_CONTEXT else "*"
         assert found and {prop.translation_context for prop in found} == {expected}
     translated = bpy.app.translations.pgettext_iface("Vertices", context)
     assert translated == say("Vertices") == entries()["Vertices"] == "Ecken"
@@ -155,7 +155,7 @@ def test_panels_keep_english_and_show_german(german):
         region=SimpleNamespace(width=2000),
         preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
     )
-    addon("ui.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
+    addon("ui.base.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
     assert lines == ["Innen nach Oberfläche: die Flächen sind geschlossen"]
 
 

@@ -37,7 +37,9 @@ def changed(axis, **fields):
 
 
 def written(axis, name):
-    return addon("bridge.write_mesh").new_mesh(axis, name, addon("bridge.attributes").attributes())
+    return addon("bridge.mesh.write_mesh").new_mesh(
+        axis, name, addon("bridge.mesh.attributes").attributes()
+    )
 
 
 def test_arrays_arrive():
@@ -48,7 +50,7 @@ def test_arrays_arrive():
     np.testing.assert_array_equal(
         [list(p.vertices) for p in mesh.polygons], axis.face_vertices.reshape(-1, 6)
     )
-    for entry in addon("bridge.attributes").attributes():
+    for entry in addon("bridge.mesh.attributes").attributes():
         found = mesh.attributes[entry.name]
         assert (found.domain, found.data_type) == (entry.domain, entry.type)
         np.testing.assert_array_equal(attribute(mesh, entry.name).ravel(), entry.values(axis))
@@ -60,7 +62,7 @@ def test_arrays_arrive():
 
 def test_numbers_beyond_float32_become_its_largest():
     """Infinity would spoil colours and averages."""
-    table = addon("bridge.attributes")
+    table = addon("bridge.mesh.attributes")
     found = table.EPSILON.values(SimpleNamespace(epsilon=np.array([0.5, 1e39, np.inf])))
     largest = np.finfo(np.float32).max
     assert found.dtype == np.float32 and found.tolist() == [0.5, largest, largest]
@@ -108,9 +110,9 @@ def test_what_needs_no_blender_is_computed_before_an_axis_is_written(monkeypatch
         raise AssertionError("this stops the window")
 
     ellipsoid()
-    monkeypatch.setattr(addon("bridge.axis_object"), "shown_axis", not_now)
+    monkeypatch.setattr(addon("bridge.axis.axis_object"), "shown_axis", not_now)
     for name in ("arrays_of", "edges_of"):
-        monkeypatch.setattr(addon("bridge.write_mesh"), name, not_now)
+        monkeypatch.setattr(addon("bridge.mesh.write_mesh"), name, not_now)
     for form in ("CLEAN", "PUBLISHED", "CURVE"):
         compute(form=form)
     bpy.context.scene.medial_axis.form = "CLEAN"
@@ -127,6 +129,6 @@ def test_no_corner_of_a_sheet_is_shaded_from_behind(kind):
         bpy.context.object.data.body, bpy.context.object.data.extrude = "Medial", 0.1
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     mesh = bpy.context.object.data
-    found = addon("bridge.write_mesh")._corner_normals(mesh).reshape(len(mesh.polygons), -1, 3)
+    found = addon("bridge.mesh.write_mesh")._corner_normals(mesh).reshape(len(mesh.polygons), -1, 3)
     own = np.array([polygon.normal for polygon in mesh.polygons])
     assert (np.einsum("ijk,ik->ij", found, own) >= 0.0).all()  # without area there is no side

@@ -216,7 +216,7 @@ def write(result, folder, name):
 
 def figures(package, result):
     """One row of the table: what was computed, and how long it took."""
-    results = importlib.import_module(package + ".bridge.axis_object")
+    results = importlib.import_module(package + ".bridge.axis.axis_object")
     analysis = importlib.import_module(package + ".core.axis.compute")
     key = result[results.ANALYSIS]
     start = time.perf_counter()

@@ -15,7 +15,7 @@ from medial_axis.core.settings import (
     THICKNESS_OPTIONS,
 )
 from support.package import ROOT
-from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
+from test_layers import BRIDGE, CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
 
@@ -24,7 +24,16 @@ pytestmark = pytest.mark.docs
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
 SOURCES = ("native", "blender_addon", "tests", "tools", "lab", "docs")
-STARTS = ("", "native", "native/medial", "blender_addon", "blender_addon/core", "tests", "lab")
+STARTS = (
+    "lab/native",
+    "",
+    "native",
+    "native/medial",
+    "blender_addon",
+    "blender_addon/core",
+    "tests",
+    "lab",
+)
 TEXTS = {
     ".py",
     ".pyi",
@@ -166,7 +175,10 @@ UNITS = (ROOT / "native" / "medial", ROOT / "lab" / "native")
 
 def header_of(unit):
     """The header of a unit, in its room or among the public ones."""
-    places = (*(folder / unit for folder in UNITS), ROOT / "native/include/medial" / Path(unit).name)
+    places = (
+        *(folder / unit for folder in UNITS),
+        ROOT / "native/include/medial" / Path(unit).name,
+    )
     return next(path for place in places if (path := place.with_suffix(".h")).is_file())
 
 
@@ -200,8 +212,8 @@ def test_rooms_of_python_see_what_the_table_says():
     for room, _, sees in rows("architecture.md", "| room of Python |"):
         (name,) = SPAN.findall(room)
         seen = {f"core/{s}" if f"core/{s}" in CORE else s for s in SPAN.findall(sees)}
-        if "all of `core`" in sees:
-            seen |= CORE
+        seen |= CORE if "all of `core`" in sees else set()
+        seen |= BRIDGE if "all of `bridge`" in sees else set()
         assert seen | everywhere == MAY_IMPORT[name] - {"", "lib"} | everywhere, name
     named = {SPAN.findall(room)[0] for room, *_ in rows("architecture.md", "| room of Python |")}
     assert named == set(MAY_IMPORT)

@@ -14,10 +14,10 @@ from types import SimpleNamespace
 import pytest
 
 import build_addon
-from tools.packaging import needs, paths
-from tools.packaging.terminal import Failure
 from tests import lint, parts
 from tests.addon.gui import drive
+from tools.packaging import needs, paths
+from tools.packaging.terminal import Failure
 
 ROOT = paths.ROOT
 

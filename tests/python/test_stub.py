@@ -51,7 +51,7 @@ def members(node):
 
 
 MEDIAL = Stub(FOLDER / "_medial.pyi")
-STUDY = Stub(ROOT / "lab" / "native" / "study" / "_medial_study.pyi", MEDIAL)
+STUDY = Stub(FOLDER.parents[1] / "lab" / "native" / "study" / "_medial_study.pyi", MEDIAL)
 
 
 @pytest.fixture(params=["medial", "study"])

@@ -19,8 +19,8 @@ from .blender import Blender, find_blender
 _SCRIPT = Path(__file__).with_name("write_node_groups.py")
 _SOURCES = (
     "bridge/nodes/*.py",
-    "bridge/attributes.py",
-    "bridge/colours.py",
+    "bridge/mesh/attributes.py",
+    "bridge/mesh/colours.py",
     "core/axis/colours.py",
 )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..material import radius_material
+from ..mesh.material import radius_material
 from .radii import points_with_radii
 from .tree import Tree
 

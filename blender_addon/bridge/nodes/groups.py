@@ -9,11 +9,11 @@ from pathlib import Path
 
 import bpy
 
-from ..mesh_arrays import read_positions
-from ..wires import wires_of
+from ..mesh.mesh_arrays import read_positions
 from . import balls, filter, rebuild, thicken, thickness_colour
 from .inputs import has_inputs, set_inputs
 from .merging import merging_distance
+from .wires import wires_of
 
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"

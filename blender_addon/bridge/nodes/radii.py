@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..attributes import RADIUS
+from ..mesh.attributes import RADIUS
 
 if TYPE_CHECKING:
     import bpy

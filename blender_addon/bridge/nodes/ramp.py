@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...core.axis.colours import SCALE
-from ..colours import COLOUR
+from ..mesh.colours import COLOUR
 
 if TYPE_CHECKING:
     import bpy

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..attributes import RADIUS
-from ..material import radius_material
+from ..mesh.attributes import RADIUS
+from ..mesh.material import radius_material
 from .radii import points_with_radii
 from .ramp import stored_colour
 from .tree import Tree

@@ -184,7 +184,7 @@ def cloud(count=1_200_000):
 
 
 def job():
-    return addon("ui.current_job").job()
+    return addon("ui.base.current_job").job()
 
 
 def job_exists():
@@ -326,7 +326,7 @@ def scene_sliders_with_escape():
     yield from key("ctrl+z")
     assert facets() == whole and bpy.context.scene.medial_axis.simplify_share == 0.0
 
-    later = addon("ui.apply_later")
+    later = addon("ui.settings.apply_later")
     later.SAMPLES = 0  # every result is large
     yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
     yield no_update
@@ -587,7 +587,7 @@ def deleted_source_ends_it():
     yield no_job
     yield 2.0
     assert job() is None and not bpy.context.scene.medial_axis.note
-    assert addon("ui.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
+    assert addon("ui.axis.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
     yield 0.5
     look("deleted")
 
@@ -608,11 +608,13 @@ def positions_of(thing):
 
 
 def changed_since():
-    return addon("bridge.source_state").differs(live_result(), bpy.context.view_layer.depsgraph)
+    return addon("bridge.objects.source_state").differs(
+        live_result(), bpy.context.view_layer.depsgraph
+    )
 
 
 def no_update():
-    return no_job() and not addon("ui.apply_later").waits()
+    return no_job() and not addon("ui.settings.apply_later").waits()
 
 
 @contextlib.contextmanager
@@ -900,10 +902,12 @@ def scene_what_comes_after():
     yield from fold(THICKNESS)
     look("4-thickness-panel")
     yield from click(*at(MEASURE_THICKNESS))
-    yield from until(lambda: addon("bridge.thickness_object").carrier_of(source) is not None)
+    yield from until(
+        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None
+    )
     yield patience(1.0)
     look("5-thickness-in-colours")
-    assert addon("ui.show").shows_colours(viewport().spaces.active), "they are switched on"
+    assert addon("ui.base.show").shows_colours(viewport().spaces.active), "they are switched on"
     yield from click(*at(THICKEN))
     yield from until(lambda: "Medial Axis Thicken" in source.modifiers)
     look("6-thicker")
@@ -1079,13 +1083,16 @@ def scene_unsolidify():
     bpy.context.scene.medial_axis_thickness.limit = 0.05
     yield from click(*at(MEASURE_THICKNESS))
     yield from until(
-        lambda: addon("bridge.thickness_object").carrier_of(bpy.data.objects["Wedge"]) is not None
+        lambda: (
+            addon("bridge.thickness.thickness_object").carrier_of(bpy.data.objects["Wedge"])
+            is not None
+        )
     )
     look("4-thin-at-one-end")
     yield from click(*at(DIVIDE))
     yield from until(lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
     look("5-divided-and-thicker")
-    thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness_object")
+    thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness.thickness_object")
     assert len(thing.data.polygons) > 300 and of.carrier_of(thing)[of.SHARE] < 0.02
     yield from key("ctrl+z")
     yield from until(lambda: not bpy.data.objects["Wedge"].modifiers)
@@ -1122,7 +1129,9 @@ def measured(limit):
     yield from open_tab()
     yield from fold(THICKNESS)
     yield from click(*at(MEASURE_THICKNESS))
-    yield from until(lambda: addon("bridge.thickness_object").carrier_of(source) is not None)
+    yield from until(
+        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None
+    )
     yield patience(1.0)
 
 
@@ -1163,7 +1172,7 @@ def fold(header):
 
 
 def reports():
-    is_report = addon("bridge.report_object").is_report
+    is_report = addon("bridge.axis.report_object").is_report
     return [thing for thing in bpy.data.objects if is_report(thing)]
 
 

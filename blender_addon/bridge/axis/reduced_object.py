@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small medial meshes as objects: how they are found, made and updated."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ... import __version__
+from ...core.axis.colours import radius_range as colours_of_radii
+from ...core.settings import Side
+from ..mesh.attributes import RADIUS
+from ..mesh.material import RADIUS_MAX, RADIUS_MIN, radius_material
+from ..mesh.write_mesh import new_axis_mesh
+from ..nodes.wires import show_wires
+from ..objects.output_object import SOURCE, VERSION, Product, follow_like, source_of
+
+if TYPE_CHECKING:
+    from ...core.axis.medial_axis import MedialAxis
+
+REDUCED = "ma_reduced"  # the wanted number of vertices; it marks the object
+
+
+REDUCED_MESH = Product(" Small Mesh", (REDUCED,), material=radius_material)
+is_reduced, reduced_of = REDUCED_MESH.has, REDUCED_MESH.of
+
+
+def check_reduced_writable(result: bpy.types.Object) -> None:
+    """Check that `write_reduced` can change the object that there is.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    REDUCED_MESH.check_writable(source_of(result) or result)
+
+
+def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
+    """Make the small medial mesh of a result, or update the existing one; all or nothing.
+
+    Parameters
+    ----------
+    result : Object
+        The medial axis that was reduced; it is not changed.
+    axis : MedialAxis
+        In the frame of `result`.
+    vertices : int
+        The wanted number.
+
+    Raises
+    ------
+    InvalidInputError
+        The object cannot be changed now, or Blender cannot hold it.
+    """
+    source = source_of(result) or result
+    span = colours_of_radii(axis.radius)
+    thing, is_new = REDUCED_MESH.write_coloured(
+        source, partial(new_axis_mesh, axis), RADIUS.name, axis.radius, *span
+    )
+    if is_new:
+        thing.show_in_front = True  # it lies inside the surface
+    follow_like(thing, result)
+    show_wires(thing, axis)
+    _remember(thing, source, axis, vertices)
+    return thing
+
+
+def _remember(
+    thing: bpy.types.Object, source: bpy.types.Object, axis: MedialAxis, vertices: int
+) -> None:
+    thing[REDUCED] = vertices
+    thing[SOURCE], thing[VERSION] = source, __version__
+    thing["ma_side"] = Side.INNER.name
+    thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    thing.update_tag()

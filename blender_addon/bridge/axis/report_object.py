@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports of samples: objects of their own, or an attribute of the source; how they are found and updated."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils.kdtree import KDTree
+
+from ...core.errors import InvalidInputError
+from ..mesh.attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
+from ..mesh.colours import colour_mesh, remember_colours
+from ..mesh.evaluated_rows import keeps_rows
+from ..mesh.material import LIMIT, epsilon_material
+from ..mesh.write_mesh import new_mesh
+from ..objects.output_object import (
+    DENSITY,
+    DUPLICATES,
+    POINTS,
+    SAMPLED,
+    SOURCE,
+    WARNINGS,
+    Product,
+    place,
+    remember,
+)
+from .feature_size import write_feature_size
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...core.samples.sampling_report import SamplingReport
+
+MEDIAN = "ma_epsilon_median"
+P95 = "ma_epsilon_p95"
+SHARE = "ma_epsilon_share"
+SHARE_OF_ALL = "ma_epsilon_share_of_all"
+WORST = "ma_epsilon_worst"
+WORST_PLACES = "ma_epsilon_worst_places"
+# A source with at least this many vertices for each sample shows a report well enough.
+_ENOUGH = 0.25
+_SCALE = 2.0  # where the colours end, in limits
+
+
+REPORT = Product(" Sampling", (SHARE, SOURCE), material=epsilon_material)
+is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.check_writable
+
+
+def has_report(thing: bpy.types.Object) -> bool:
+    """Whether this is a report, or a source that carries its report itself."""
+    return thing.type == "MESH" and SHARE in thing
+
+
+def write_report(
+    source: bpy.types.Object, found: SamplingReport, frame: np.ndarray, colours: bool = True
+) -> bpy.types.Object:
+    """Make the report of a source, or update the existing one; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : SamplingReport
+    frame : (4, 4) float64
+        Where the samples lie in the world; rotation and translation only.
+    colours : bool
+        Whether it has `ma_color`.
+
+    Raises
+    ------
+    InvalidInputError
+        The report cannot be changed now, or Blender cannot hold it.
+    """
+    build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
+    of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
+    report, is_new = REPORT.write_coloured(source, build, of, found.epsilon, 0.0, end)
+    if is_new:
+        report.show_in_front = True  # it lies exactly on its source
+    place(report, frame)
+    analysis = found.chosen.samples.analysis
+    remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
+    _remember_density(report, found)
+    return report
+
+
+def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
+    density, worst = found.density, found.density.worst
+    report[SAMPLED] = found.chosen.reason
+    report[DENSITY] = str(density)
+    report[LIMIT] = density.limit
+    report[MEDIAN] = density.median
+    report[P95] = density.p95
+    report[SHARE] = density.share
+    report[SHARE_OF_ALL] = density.share_of_all
+    report[WORST] = [epsilon for _, epsilon in worst]
+    report[WORST_PLACES] = [number for where, _ in worst for number in where]
+    report.update_tag()
+
+
+# --- on the source itself
+
+
+def check_source_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when a source cannot take an attribute for its vertices now."""
+    if source.type != "MESH" or source.data.library is not None:
+        kind = "of another file" if source.type == "MESH" else f"of type {source.type.capitalize()}"
+        raise InvalidInputError(
+            f"Expected a mesh of this file for Write To Source, found an object {kind}; "
+            "choose Write To Copy"
+        )
+    if source.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected '{source.name}' in object mode, found it in {source.mode.lower()} mode; "
+            "leave that mode, or choose Write To Copy"
+        )
+
+
+def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
+    """Whether a source can take its report now, and has vertices enough to show it."""
+    try:
+        check_source_writable(source)
+    except InvalidInputError:
+        return False
+    vertices = len(source.data.vertices)
+    enough = found.shape.has_vertices(vertices) and vertices >= _ENOUGH * len(found.vertices)
+    return enough and keeps_rows(source)
+
+
+def write_on_source(
+    source: bpy.types.Object, found: SamplingReport, colours: bool = True
+) -> bpy.types.Object:
+    """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, colours, and the
+    feature size with its vertex group.
+
+    Raises
+    ------
+    InvalidInputError
+        The source cannot take it, or its modifiers make other vertices.
+    """
+    check_source_writable(source)
+    vertices, original = len(found.shape.points), len(source.data.vertices)
+    if not found.shape.has_vertices(original):
+        raise InvalidInputError(
+            f"Expected as many vertices with modifiers as without for Write To Source, found "
+            f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
+        )
+    if not keeps_rows(source):
+        raise InvalidInputError(
+            "Expected modifiers that keep the order of vertices for Write To Source, found some that "
+            "change it; apply the modifiers, or choose Write To Copy"
+        )
+    values = _on_vertices(found)
+    set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)
+    write_feature_size(source, found)
+    if colours:
+        alone = not len(source.data.color_attributes)  # else renders show those of the artist
+        colour_mesh(source.data, values, 0.0, _SCALE * found.density.limit, render=alone)
+    source.data.update()
+    source[POINTS] = len(found.vertices)
+    source[DUPLICATES] = found.chosen.samples.analysis.duplicates
+    source[WARNINGS] = "\n".join(found.warnings)
+    of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
+    remember_colours(source, of, 0.0, end)
+    _remember_density(source, found)
+    return source
+
+
+def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
+    """(v,) the largest epsilon of the samples nearest to each vertex; where there is none, that of the sample
+    nearest to the vertex."""
+    vertices = found.shape.points
+    to_vertex = _nearest(found.vertices, vertices)
+    values = np.full(len(vertices), -1.0)
+    np.maximum.at(values, to_vertex, found.epsilon)
+    bare = np.flatnonzero(values < 0.0)
+    values[bare] = found.epsilon[_nearest(vertices[bare], found.vertices)]
+    return as_float32(values)
+
+
+def _nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.intp]:
+    """(n,) row of the nearest of the others to each point."""
+    tree = KDTree(len(others))
+    for row, other in enumerate(others.tolist()):
+        tree.insert(other, row)
+    tree.balance()
+    return np.fromiter((tree.find(point)[1] for point in points.tolist()), np.intp, len(points))

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them; and the gap that
+suggests a value of Simplify."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...core.axis.slider_range import SliderRange
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ...core.axis.medial_axis import MedialAxis
+
+RANGES = {
+    "simplify": "ma_simplify_range",
+    "erode": "ma_erode_range",
+    "spike": "ma_spike_range",
+    "limb": "ma_limb_range",
+}
+_GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
+
+
+def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
+    """Keep the ranges of an axis on its object, or forget older ones."""
+    ranges = {} if axis.level is None else axis.level.ranges
+    for name, key in RANGES.items():
+        if found := ranges.get(name):
+            result[key] = [*found.lengths, *found.shares]
+        else:
+            result.pop(key, None)
+    if axis.level is not None and axis.level.gap is not None:
+        result[_GAP] = axis.level.gap
+    else:
+        result.pop(_GAP, None)
+
+
+def gap_on(result: bpy.types.Object | None) -> float | None:
+    """The value of Simplify between thin sheets and others; None where they have no clear gap."""
+    found = None if result is None else result.get(_GAP)
+    return found if isinstance(found, float) and 0.0 < found < 100.0 else None
+
+
+def range_on(result: bpy.types.Object | None, name: str) -> SliderRange | None:
+    """The range of a slider; None where the result has none, or someone changed it to what is none."""
+    found = None if result is None else result.get(RANGES[name])
+    try:
+        lengths, shares = np.array(found, np.float64).reshape(2, -1)
+    except (TypeError, ValueError):
+        return None
+    rising = len(lengths) > 1 and (np.diff(lengths) > 0).all() and (np.diff(shares) > 0).all()
+    return SliderRange(tuple(lengths), tuple(shares)) if rising else None

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Attributes in Blender: tables of those of a medial axis and of samples, and the normals of oriented points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ...core.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...core.axis.medial_axis import LevelValues, MedialAxis
+    from ...core.axis.structure import Structure
+    from ...core.samples.sampling_report import SamplingReport
+
+
+@dataclass(frozen=True)
+class Attribute:
+    """One attribute of a mesh that is made.
+
+    Parameters
+    ----------
+    name : str
+        In Blender.
+    field, column : str, int or None
+        Of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for pairs.
+    domain, type : str
+        Blender's identifiers.
+    dtype : type
+        What Blender stores, so that it is copied without conversion.
+    """
+
+    name: str
+    field: str
+    domain: str
+    type: str
+    dtype: type
+    column: int | None = None
+
+    @property
+    def width(self) -> int:
+        """The number of numbers that an element has."""
+        return {"INT32_2D": 2, "FLOAT_VECTOR": 3}.get(self.type, 1)
+
+    @property
+    def key(self) -> str:
+        """Blender's name for the numbers of an element."""
+        return _key_of(self.type)
+
+    def values(self, axis: MedialAxis | LevelValues | Structure | SamplingReport) -> NDArray:
+        """The flat array that `foreach_set` wants; of edges, those that the values are about."""
+        array = getattr(axis, self.field)
+        if self.column is not None:
+            array = array[:, self.column]
+        if self.dtype is np.float32:
+            array = as_float32(array)
+        return np.ascontiguousarray(array, self.dtype).ravel()
+
+
+def as_float32(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Numbers as Blender holds them; what is too large for it is the largest one, for infinity spoils colours."""
+    return np.minimum(values, np.finfo(np.float32).max).astype(np.float32)
+
+
+RADIUS = Attribute("ma_radius", "radius", "POINT", "FLOAT", np.float32)
+_FACE = (
+    Attribute("ma_theta", "theta", "FACE", "FLOAT", np.float32),
+    Attribute("ma_rho", "rho", "FACE", "FLOAT", np.float32),
+    Attribute("ma_side", "side", "FACE", "INT", np.int32),
+)
+_PAIR = (Attribute("ma_generators", "generators", "FACE", "INT32_2D", np.int32),)
+_TWO_INTS = (
+    Attribute("ma_generator_a", "generators", "FACE", "INT", np.int32, column=0),
+    Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
+)
+# Only clean forms and curves have these attributes; lengths are percent of the diagonal, as on the sliders.
+_LEVEL = (
+    Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
+    Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
+    Attribute("ma_place", "place", "POINT", "INT", np.int32),
+    Attribute("ma_sheet", "sheet", "FACE", "FLOAT", np.float32),
+    Attribute("ma_erosion", "erosion", "FACE", "FLOAT", np.float32),
+    Attribute("ma_limb", "limb", "EDGE", "FLOAT", np.float32),
+)
+
+# Only clean forms have these; the edges are those of the facets, which come first.
+PART = Attribute("ma_part", "part", "FACE", "INT", np.int32)
+_KIND = Attribute("ma_kind", "kind", "POINT", "INT", np.int32)
+_STRUCTURE = (
+    PART,
+    Attribute("ma_seam", "seam", "EDGE", "INT", np.int32),
+    Attribute("ma_curve", "curve", "EDGE", "INT", np.int32),
+    _KIND,
+)
+
+# Directions at vertices, of sheets and of curves; no fields of an axis, for they follow from it.
+NORMAL, TANGENT = "ma_normal", "ma_tangent"
+
+EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
+SAMPLE_ATTRIBUTES = (
+    EPSILON,
+    Attribute("ma_feature_size", "feature_size", "POINT", "FLOAT", np.float32),
+    Attribute("ma_spacing", "spacing", "POINT", "FLOAT", np.float32),
+    Attribute("ma_moved", "moved", "POINT", "FLOAT", np.float32),
+)
+
+
+def attributes() -> tuple[Attribute, ...]:
+    """The attributes of every medial axis, as this Blender can hold them."""
+    types = bpy.types.Attribute.bl_rna.properties["data_type"].enum_items
+    return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
+
+
+def level_attributes() -> tuple[Attribute, ...]:
+    """The further attributes of clean forms and curves."""
+    return _LEVEL
+
+
+def structure_attributes() -> tuple[Attribute, ...]:
+    """The attributes of the structure of a clean form."""
+    return _STRUCTURE
+
+
+def _key_of(kind: str) -> str:
+    """The property in which Blender keeps the values of a kind of attribute."""
+    return "vector" if kind == "FLOAT_VECTOR" else "value"
+
+
+def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
+    """Give a mesh in object mode an attribute; one of that name and of another kind is replaced.
+
+    Raises
+    ------
+    InvalidInputError
+        Something else has the name, such as a vertex group.
+    """
+    found = mesh.attributes.get(name)
+    if found is not None and (found.domain, found.data_type) != (domain, kind):
+        mesh.attributes.remove(found)
+        found = None
+    target = found or _new_attribute(mesh, name, kind, domain)
+    target.data.foreach_set(_key_of(kind), values)
+
+
+def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.Attribute:
+    made = mesh.attributes.new(name, kind, domain)
+    if made is not None and made.name == name:
+        return made
+    if made is not None:  # by another name, which nothing would read
+        mesh.attributes.remove(made)
+    raise InvalidInputError(
+        f"Expected the name '{name}' to be free on the mesh '{mesh.name}', found a vertex group, a UV "
+        "map or the like that has it; rename that"
+    )
+
+
+def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:
+    return name in mesh.attributes
+
+
+# Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier
+# versions keep that name of a mesh to themselves and make no such attribute.
+NORMAL_NAMES = ("normal", "ma_normal")
+
+
+def add_normals(attributes: bpy.types.AttributeGroup, normals: NDArray) -> None:
+    """Give the points of a mesh or point cloud, by its `attributes`, (n, 3) normals."""
+    made = (attributes.new(name, "FLOAT_VECTOR", "POINT") for name in NORMAL_NAMES)
+    found = next(attribute for attribute in made if attribute is not None)
+    found.data.foreach_set("vector", np.ascontiguousarray(normals, np.float32).ravel())
+
+
+def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | None:
+    """(n, 3) the normals of the points of a mesh or point cloud; None when it has none.
+
+    Those of the sheets of a medial axis are none: neither side of a sheet is outside.
+    """
+    for name in NORMAL_NAMES:
+        if name == NORMAL and _KIND.name in attributes:
+            continue
+        found = attributes.get(name)
+        if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_VECTOR"):
+            return read_vectors(found.data, "vector")
+    return None
+
+
+def read_vectors(elements: bpy.types.bpy_prop_collection, name: str) -> NDArray[np.float64]:
+    """(n, 3) a vector property of all elements."""
+    values = np.empty(3 * len(elements), np.float32)
+    elements.foreach_get(name, values)
+    return values.astype(np.float64).reshape(-1, 3)

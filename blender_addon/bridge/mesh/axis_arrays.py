@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The arrays of the mesh of an axis in Blender, besides those of the axis.
+
+They are computed in the thread of a job where there is one, because Blender draws nothing while its main thread works.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...core.axis.directions import curve_tangents, sheet_normals
+from ...core.axis.turning import with_facets_turned
+from ...core.machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...core.axis.medial_axis import MedialAxis
+
+
+@dataclass(frozen=True, eq=False)
+class AxisArrays:
+    """The arrays of an axis.
+
+    Parameters
+    ----------
+    turned : MedialAxis
+        The facets of a sheet turn the same way.
+    edges : (e, 2) int32
+        Those of the facets, and not the edges alone.
+    corner_edges : (c,) int32
+        The edge after each corner.
+    normals, tangents : (v, 3) float32 or None
+        The directions of the sheet and of the curve at each vertex; None where there are no sheets, or no curves.
+    """
+
+    turned: MedialAxis
+    edges: NDArray[np.int32]
+    corner_edges: NDArray[np.int32]
+    normals: NDArray[np.float32] | None
+    tangents: NDArray[np.float32] | None
+
+
+def arrays_of(axis: MedialAxis) -> AxisArrays:
+    """The arrays of an axis; this may run in any thread."""
+    structure = axis.structure
+    turned = axis if structure is None else with_facets_turned(axis, structure.turned)
+    edges, corner_edges = edges_of(turned.face_offsets, turned.face_vertices, len(turned.vertices))
+    normals = tangents = None
+    if structure is not None:
+        corners = turned.face_offsets, turned.face_vertices
+        normals = sheet_normals(turned.vertices, *corners, structure.part).astype(np.float32)
+    if len(turned.edges):
+        tangents = curve_tangents(turned.vertices, turned.edges).astype(np.float32)
+    return AxisArrays(turned, edges, corner_edges, normals, tangents)
+
+
+def edges_of(
+    offsets: NDArray[np.int32], corners: NDArray[np.int32], vertices: int
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """The edges of polygons, and the edge after each corner, as in `AxisArrays`."""
+    with own_errors() as module:
+        return module.polygon_edges(offsets, corners, vertices)

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colours in Blender: `ma_color` on the points of a mesh, which Solid view shows with Color: Attribute, and the range
+that they stand for, which an object remembers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ...core.axis.colours import colours, part_colours
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+COLOUR = "ma_color"
+# Custom properties of a coloured object: the numbers at the first and at the last colour of the scale, and the name of
+# the attribute that was coloured.
+START = "ma_color_start"
+END = "ma_color_end"
+OF = "ma_color_of"
+
+
+def colour_mesh(
+    mesh: bpy.types.Mesh, values: NDArray, start: float, end: float, render: bool = True
+) -> None:
+    """Give a mesh `ma_color`, active in the viewport and, where `render` is true, in renders.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        In object mode; an existing attribute of that name is replaced.
+    values : (number of vertices,)
+        NaN is grey.
+    start, end : float
+        What is blue and what is yellow; start may be the larger one.
+    """
+    attribute = _attribute(mesh)
+    attribute.data.foreach_set("color", colours(values, start, end).ravel())
+    mesh.color_attributes.active_color = attribute
+    if render:
+        mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
+
+
+def coloured_mesh(
+    build: Callable[[str | bpy.types.Mesh], bpy.types.Mesh],
+    values: NDArray,
+    start: float,
+    end: float,
+    name: str | bpy.types.Mesh,
+) -> bpy.types.Mesh:
+    """A mesh that `build` makes from its name, with colours as `colour_mesh` gives them."""
+    mesh = build(name)
+    colour_mesh(mesh, values, start, end)
+    return mesh
+
+
+def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
+    """Give a new mesh `ma_color` by the parts of its polygons, active in the viewport and in renders.
+
+    Colours belong to corners, because a vertex of a seam lies on several parts.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    part, sizes : (number of polygons,)
+        The part and the number of corners of each polygon.
+    """
+    attribute = mesh.color_attributes.new(COLOUR, "FLOAT_COLOR", "CORNER")
+    attribute.data.foreach_set("color", part_colours(part).repeat(sizes, axis=0).ravel())
+    mesh.color_attributes.active_color = attribute
+    mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
+
+
+def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:
+    """Keep on an object which attribute `ma_color` shows, "" where there is none, and its range, for the legend and the
+    materials; also on what shares its mesh and its colours: duplicates, and the solid that is rebuilt of it."""
+    thing[OF] = of
+    for other in _coloured_like(thing):
+        other[OF], other[START], other[END] = of, float(start), float(end)
+        other.update_tag()
+
+
+def _coloured_like(thing: bpy.types.Object) -> list[bpy.types.Object]:
+    if thing.data.users == 1:
+        return [thing]
+    return [other for other in bpy.data.objects if other.data == thing.data and OF in other]
+
+
+def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:
+    """(name of the attribute, start, end) of what an object is coloured by; None when it is not coloured."""
+    if not thing.get(OF):
+        return None
+    return thing[OF], thing[START], thing[END]
+
+
+def _attribute(mesh: bpy.types.Mesh) -> bpy.types.Attribute:
+    """`ma_color` of a mesh, made where there is none of its kind."""
+    found = mesh.attributes.get(COLOUR)
+    if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_COLOR"):
+        return found
+    if found is not None:
+        mesh.attributes.remove(found)
+    return mesh.color_attributes.new(COLOUR, "FLOAT_COLOR", "POINT")

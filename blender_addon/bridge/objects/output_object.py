@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are made of a source, and updated in place when the source is computed again.
+
+They remember their source in a custom property, and are its children unless this is switched off; the source is not
+changed.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ... import __version__
+from ...core.errors import InvalidInputError
+from ..mesh.colours import coloured_mesh, remember_colours
+from ..mesh.material import dress
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
+VERSION = "ma_version"
+POINTS = "ma_points"
+DUPLICATES = "ma_duplicates"
+WARNINGS = "ma_warnings"
+SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
+DENSITY = "ma_density"  # how densely that lies: a sentence
+SECONDS = "ma_seconds"
+
+_WRITTEN = "ma_written"  # when an object and its mesh were written between two steps of undo
+
+OF_PART = "ma_of_part"  # the connected part of the source, as in the name of the object
+
+KEPT_SCALE = "Medial Axis Scale"  # the constraint that keeps the scale of an output at 1
+
+Build = Callable[[str | bpy.types.Mesh], bpy.types.Mesh]
+
+
+def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
+    """The object that this was made of; None when it was not made of one, or its source is gone."""
+    source = output.get(SOURCE)
+    return source if isinstance(source, bpy.types.Object) else None
+
+
+def is_gone(thing: bpy.types.Object | None) -> bool:
+    """Deleted: Blender keeps objects that a custom property points to, but in no collection."""
+    return thing is None or not thing.users_collection
+
+
+def first_of_family(thing: bpy.types.Object) -> bpy.types.Object:
+    """The metaball that has the shape of its whole family; any other object is returned as it is.
+
+    A family are the metaballs whose names differ only in a number at the end, and its first has none.
+    """
+    if thing.type != "META" or not thing.name[-1].isdigit():
+        return thing
+    first = bpy.data.objects.get(thing.name.rpartition(".")[0])
+    return thing if is_gone(first) or first.type != "META" else first
+
+
+def output_of(
+    source: bpy.types.Object, is_kind: Callable[[bpy.types.Object], bool]
+) -> bpy.types.Object | None:
+    """The object of a kind that the next computation of this source, or of its family, updates."""
+    source = first_of_family(source)
+    found = [
+        thing
+        for thing in bpy.data.objects
+        if thing.library is None
+        and is_kind(thing)
+        and not is_gone(thing)
+        and source_of(thing) == source
+    ]
+    return min(found, key=lambda thing: thing.name, default=None)
+
+
+@dataclass(frozen=True)
+class Product:
+    """One kind of object that is made of a source: how it is found, made and updated.
+
+    Parameters
+    ----------
+    suffix : str
+        The name of the object is the name of its source and this.
+    marks : tuple of str
+        Custom properties that objects of this kind, and no others, have.
+    type : str
+        Blender's type of these objects.
+    part : str
+        Of which connected part of a source objects are made; empty for those that are made of the whole.
+    material : function, optional
+        Returns the material that new objects get, with the flat colour of all products.
+    """
+
+    suffix: str
+    marks: tuple[str, ...]
+    type: str = "MESH"
+    part: str = ""
+    material: Callable[[], bpy.types.Material] | None = None
+
+    def has(self, thing: bpy.types.Object) -> bool:
+        """Whether an object is of this kind."""
+        return thing.type == self.type and all(mark in thing for mark in self.marks)
+
+    def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
+        """The object of this kind that the next computation of a source updates."""
+        return output_of(
+            source, lambda thing: self.has(thing) and thing.get(OF_PART, "") == self.part
+        )
+
+    def check_writable(self, source: bpy.types.Object) -> None:
+        """Raise InvalidInputError when the object that was made of a source cannot be updated now."""
+        check_mode(self.of(source))
+
+    def write_mesh(
+        self, source: bpy.types.Object, build: Build, between_steps: bool = False
+    ) -> tuple[bpy.types.Object, bool]:
+        """Make the object of a source or give it another mesh, all or nothing; and whether it is new.
+
+        `build` and `between_steps` are as in `replace_mesh`.
+        """
+        thing = self.of(source)
+        if thing is not None:
+            replace_mesh(thing, build, between_steps)
+            return thing, False
+        thing = new_object(source, self.suffix, build(source.name + self.suffix))
+        if self.material is not None:
+            dress(thing, self.material())
+        return thing, True
+
+    def write_coloured(
+        self,
+        source: bpy.types.Object,
+        build: Build,
+        of: str,
+        values: NDArray,
+        start: float,
+        end: float,
+    ) -> tuple[bpy.types.Object, bool]:
+        """As `write_mesh`, with colours of the vertices, whose range is remembered for the material and the legend.
+
+        Parameters
+        ----------
+        source : Object
+        build : function
+        of : str
+            The name of the attribute that is shown, or "" for a mesh without colours.
+        values : (number of vertices,)
+        start, end : float
+            What is blue and what is yellow.
+        """
+        coloured = partial(coloured_mesh, build, values, start, end) if of else build
+        thing, is_new = self.write_mesh(source, coloured)
+        remember_colours(thing, of, start, end)
+        return thing, is_new
+
+
+def check_mode(output: bpy.types.Object | None) -> None:
+    """Raise InvalidInputError when an object that was made before cannot be updated now."""
+    if output is not None and output.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected '{output.name}' in object mode, found it in {output.mode.lower()} mode; "
+            "leave that mode and compute again"
+        )
+
+
+def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    """An object named after its source, in the collections of the source."""
+    output = bpy.data.objects.new(source.name + suffix, mesh)
+    editable = [collection for collection in source.users_collection if collection.library is None]
+    for collection in editable or [bpy.context.scene.collection]:
+        collection.objects.link(output)
+    return output
+
+
+def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = False) -> None:
+    """Swap in a new mesh, also for linked duplicates; materials and the name stay.
+
+    Parameters
+    ----------
+    output : Object
+    build : function
+        Makes a mesh from its name, or fills the mesh that it is given.
+    between_steps : bool
+        No step of undo follows, so the mesh that there is is filled again: Blender keeps an object that two steps have
+        alike as it is now, and from 5.0 on it ends where such an object has a mesh that neither step has. What was
+        written so is marked on both, for undo may bring back one of the two (`is_torn`).
+    """
+    check_mode(output)
+    old = output.data
+    output.pop(_WRITTEN, None)
+    if between_steps and old.shape_keys is None:  # keys of an artist fit one number of vertices
+        build(old)
+        output[_WRITTEN] = old[_WRITTEN] = str(time.time_ns())
+        return
+    mesh = build(old.name)
+    for material in old.materials:
+        mesh.materials.append(material)
+    old.user_remap(mesh)
+    name = old.name
+    bpy.data.meshes.remove(old)
+    mesh.name = name
+
+
+def is_torn(output: bpy.types.Object) -> bool:
+    """Whether an object and its mesh were not written together: undo has brought back one of them."""
+    return output.get(_WRITTEN) != output.data.get(_WRITTEN)
+
+
+def place(output: bpy.types.Object, frame: np.ndarray) -> None:
+    """Give an object the place `frame`, a (4, 4) rotation and translation."""
+    output.matrix_world = Matrix(frame.tolist())
+    if output.parent is None:
+        output.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+
+
+def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
+    """Make an object that has just been placed a child of its source, or its own master again.
+
+    A parent that an artist chose stays. A source that is scaled flat cannot be a parent; a curve whose path is
+    animated would carry its children along that path.
+
+    Parameters
+    ----------
+    output, source : Object
+    world : (4, 4) matrix
+        Of the source, when it was read.
+    wanted : bool
+    """
+    frame = output.matrix_world.copy()
+    if output.parent == source and not wanted:
+        output.parent = None
+        _forget_scale(output)
+    elif wanted and output.parent in (None, source) and _can_carry(source, world):
+        output.parent = source
+        output.matrix_parent_inverse = inverse_of(world)
+    else:
+        return
+    output.matrix_basis = frame
+    output.scale = (1.0, 1.0, 1.0)
+    if output.parent is not None:
+        _keep_scale(output)
+        if source.type == "CURVE":
+            _undo_path(output, frame, world)
+
+
+def follow_like(output: bpy.types.Object, other: bpy.types.Object) -> None:
+    """Place an output as another output of the same source, as a child of the same parent.
+
+    A parent that an artist chose stays.
+    """
+    if output.parent not in (None, other.parent):
+        output.matrix_world = other.matrix_world
+        return
+    output.parent = other.parent
+    if other.parent is not None:
+        output.parent_type, output.parent_bone = other.parent_type, other.parent_bone
+        _keep_scale(output)
+    output.matrix_parent_inverse = other.matrix_parent_inverse.copy()
+    output.matrix_basis = other.matrix_basis.copy()
+
+
+def _keep_scale(output: bpy.types.Object) -> None:
+    """Radii are lengths of the world, so a source that is scaled later must not stretch what was made of it.
+
+    The locks show an artist that scaling the output by hand does nothing, either.
+    """
+    if _scale_of(output) is None:
+        output.lock_scale = (True, True, True)
+        limit = output.constraints.new("LIMIT_SCALE")
+        limit.name, limit.owner_space = KEPT_SCALE, "WORLD"
+        for axis in "xyz":
+            for end in ("min", "max"):
+                setattr(limit, f"use_{end}_{axis}", True)
+                setattr(limit, f"{end}_{axis}", 1.0)
+
+
+def _forget_scale(output: bpy.types.Object) -> None:
+    if limit := _scale_of(output):
+        output.constraints.remove(limit)
+        output.lock_scale = (False, False, False)
+
+
+def _scale_of(output: bpy.types.Object) -> bpy.types.Constraint | None:
+    found = (c for c in output.constraints if c.type == "LIMIT_SCALE" and c.name == KEPT_SCALE)
+    return next(found, None)
+
+
+def _can_carry(source: bpy.types.Object, world: Matrix) -> bool:
+    animated = source.type == "CURVE" and source.data.use_path and source.data.animation_data
+    return _has_inverse(world) and not animated
+
+
+def inverse_of(matrix: Matrix) -> Matrix:
+    """The inverse, computed in float64: of large scales the determinant overflows in float32, and Blender's is NaN."""
+    return Matrix(np.linalg.inv(np.array(matrix, np.float64)).tolist())
+
+
+def _has_inverse(matrix: Matrix) -> bool:
+    return bool(np.linalg.det(np.array(matrix, np.float64)) != 0.0)
+
+
+def _undo_path(output: bpy.types.Object, frame: Matrix, world: Matrix) -> None:
+    """Blender carries the children of a curve to the start of its path; take that back."""
+    bpy.context.view_layer.update()
+    carried = output.matrix_world @ frame.inverted() @ world
+    if _has_inverse(carried):
+        output.matrix_parent_inverse = inverse_of(carried)
+
+
+def remember(
+    output: bpy.types.Object,
+    source: bpy.types.Object,
+    points: int,
+    duplicates: int,
+    warnings: tuple[str, ...],
+) -> None:
+    """Store what every kind of output keeps: its source, and what was computed of it."""
+    output[SOURCE] = source
+    output[VERSION] = __version__
+    output[POINTS] = points
+    output[DUPLICATES] = duplicates
+    output[WARNINGS] = "\n".join(warnings)

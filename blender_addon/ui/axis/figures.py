@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures of a result in the panel: the important ones in a few rows, and all of them."""
+
+import bpy
+
+from ...bridge import surface_object
+from ...bridge.axis import axis_object, report_object
+from ...bridge.mesh.colours import colour_range
+from ...bridge.mesh.material import LIMIT, RADIUS_MAX, RADIUS_MIN
+from ...bridge.nodes.wires import LONE_POINTS
+from ...bridge.objects import output_object
+from ...bridge.objects.source_state import has_changed
+from ...bridge.thickness.heat_map import shown_heat
+from ...bridge.thickness.thickness_object import HISTOGRAM, scale_on
+from ...core.axis.topology import betti_in_short
+from ...core.axis.verdict import Light, in_short
+from ..base import manual
+from ..base.legend import draw_legend, draw_thickness_legend, light
+from ..base.plain_words import draw_told, warned
+from ..base.show import shows_colours
+from ..base.tab import draws_buttons
+from ..base.translation import say
+from ..base.wrapped_text import draw_wrapped
+from ..settings.guide import WHY
+from ..settings.properties import copy_settings, needs_analysis
+from .inward_faces import draw_inward_faces
+
+
+def draw_result(context, layout, result):
+    """Its verdict, its pieces and its radii, a row each; where its colours are shown, their legend has the radii."""
+    if reason := why_outdated(context, result):
+        layout.label(text=reason, icon_value=light(Light.LOOK.name))
+        if draws_buttons(layout):
+            again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+            copy_settings(context.scene.medial_axis, again)
+    else:
+        _draw_verdict(layout, result)
+        _draw_pieces(layout, result)
+    if hidden := result.get(axis_object.HIDDEN, 0):
+        draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
+    if crumbs := result.get(axis_object.CRUMBS, 0):
+        text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
+        draw_wrapped(context, layout, text, "INFO")
+    if lone := result.get(LONE_POINTS, 0):
+        text = "1 lone point hidden" if lone == 1 else f"{lone:,} lone points hidden"
+        draw_wrapped(context, layout, text, "INFO")
+    if not _draw_legend(context, layout, result):
+        radii = _range_text(context, *axis_object.radius_range(result))
+        _draw_figures(layout, {"Radius": radii}, 0.3)
+
+
+def draw_sequence(context, layout, frame):
+    """The radii of a frame of a sequence, whose colours are those of all its frames."""
+    _draw_name(layout, frame)
+    _draw_figures(layout, {"Radius": _range_text(context, frame[RADIUS_MIN], frame[RADIUS_MAX])})
+    _draw_legend(context, layout, frame)
+
+
+def draw_report(context, layout, report):
+    """Draws how dense the samples are."""
+    _draw_name(layout, report)
+    limit = report.get(LIMIT, 0.0)
+    share = 100 * report.get(report_object.SHARE, 0.0)
+    _draw_figures(
+        layout,
+        {
+            "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
+            f"Above {limit:g}": f"{share:.1f} %",
+        },
+    )
+    for warning in report.get(output_object.WARNINGS, "").splitlines():
+        draw_told(context, layout, warning, "ERROR", warned)
+    _draw_legend(context, layout, report)
+
+
+def draw_details(context, layout, result):
+    """All other figures of a result, and every sentence."""
+    _draw_table(
+        layout,
+        result,
+        {
+            "Points": f"{result.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{result.get(output_object.DUPLICATES, 0):,}",
+            "Facets": f"{len(result.data.polygons):,}",
+            "Vertices": f"{len(result.data.vertices):,}",
+            "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
+            "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
+            "Not on Edges": f"{result.get(axis_object.REFUSED, 0):,}",
+            "Time": f"{result.get(output_object.SECONDS, 0.0):.2f} s",
+        },
+    )
+    sentences = (
+        axis_object.TOPOLOGY,
+        output_object.SAMPLED,
+        output_object.DENSITY,
+        axis_object.INSIDE,
+    )
+    for name in (*sentences, axis_object.MESH, axis_object.PLACES):
+        if sentence := result.get(name):
+            draw_wrapped(context, layout, sentence, "INFO")
+    for warning in result.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+    draw_inward_faces(layout, result)
+
+
+def draw_report_details(context, layout, report):
+    """All other figures of a report."""
+    worst = report.get(report_object.WORST) or [0.0]
+    _draw_table(
+        layout,
+        report,
+        {
+            "Samples": f"{report.get(output_object.POINTS, 0):,}",
+            "95 % Below": f"{report.get(report_object.P95, 0.0):.2f}",
+            "And at Edges": f"{100 * report.get(report_object.SHARE_OF_ALL, 0.0):.1f} %",
+            "Worst": f"{worst[0]:.2g}",
+        },
+    )
+    draw_wrapped(context, layout, report.get(output_object.SAMPLED, ""), "INFO")
+
+
+def draw_surface(context, layout, surface):
+    """The figures of a reconstructed surface, and what looks wrong with it."""
+    _draw_table(
+        layout,
+        surface,
+        {
+            "Points": f"{surface.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{surface.get(output_object.DUPLICATES, 0):,}",
+            "Off Surface": f"{surface.get(surface_object.OFF_SURFACE, 0):,}",
+            "Triangles": f"{len(surface.data.polygons):,}",
+            "Non-Manifold": f"{surface.get(surface_object.NONMANIFOLD_EDGES, 0):,} edges",
+            "": f"{surface.get(surface_object.NONMANIFOLD_VERTICES, 0):,} points",
+            "Cavities": f"{surface.get(surface_object.CAVITIES, 0):,}",
+        },
+    )
+    for warning in surface.get(output_object.WARNINGS, "").splitlines():
+        draw_told(context, layout, warning, "ERROR", warned)
+
+
+def _draw_verdict(layout, result):
+    """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
+    name = result.get(axis_object.LIGHT)
+    if name not in WHY:  # of an older version
+        return
+    row = layout.split(factor=0.88)  # in a row, half of it would be the question mark's
+    row.label(
+        text=say(in_short(result[axis_object.VERDICT])), icon_value=light(name), translate=False
+    )
+    if manual.has(WHY[name].partition("#")[0]):
+        row.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
+
+
+def _draw_pieces(layout, result):
+    """Draws how many pieces, loops and cavities there are, with a tick where the faces have as many."""
+    betti = result.get(axis_object.BETTI, (result.get(axis_object.PIECES, 0), 0, 0))
+    agrees = result.get(axis_object.TOPOLOGY, "").endswith(", as the solid")
+    icon = "CHECKMARK" if agrees else "MESH_DATA"
+    words = ", ".join(map(say, betti_in_short(betti)))
+    layout.label(text=words, icon=icon, translate=False)
+
+
+def why_outdated(context, result):
+    """Why the shown result no longer belongs to its source and settings, or an empty string."""
+    if axis_object.DRAFT in result:
+        return "A draft, of few samples"
+    if has_changed(result, context.view_layer.depsgraph):
+        return "The source has changed"
+    if needs_analysis(result, context.scene.medial_axis):
+        return "Settings have changed"
+    return ""
+
+
+def _draw_legend(context, layout, thing):
+    """The range of the colours that are shown, while they are seen; returns whether they are."""
+    if not shows_colours(context.space_data):
+        return False
+    if axis_object.is_result(thing) and (carrier := shown_heat(thing)):
+        draw_thickness(context, layout, carrier)
+        return True
+    found = colour_range(thing)
+    if found is None:
+        return False
+    name, start, end = found
+    if name == report_object.EPSILON.name:
+        draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
+        return True
+    low, high = length_text(context, end), length_text(context, start)
+    is_one = _range_text(context, *axis_object.radius_range(thing)) == high
+    draw_legend(layout, "" if is_one else low, high, turned=True)
+    return True
+
+
+def draw_thickness(context, layout, carrier):
+    """The legend of a thickness, with the shares of the surface."""
+    scale = scale_on(carrier)
+    if scale is None:
+        return
+    low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
+    middle = limit if scale.limit > scale.low else ""
+    draw_thickness_legend(layout, scale, list(carrier[HISTOGRAM]), (low, middle, high))
+
+
+def _range_text(context, smallest, largest):
+    """Two lengths, or one where they read the same."""
+    start, end = (length_text(context, value) for value in (smallest, largest))
+    return start if start == end else f"{start} to {end}"
+
+
+def length_text(context, value):
+    """A length in the unit of the scene."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{value:.3g}"
+    return bpy.utils.units.to_string(
+        units.system, "LENGTH", value * units.scale_length, precision=3
+    )
+
+
+def _draw_name(layout, thing):
+    layout.label(text=thing.name, icon="OUTLINER_OB_MESH", translate=False)
+
+
+def _draw_table(layout, thing, figures):
+    _draw_name(layout, thing)
+    _draw_figures(layout, figures)
+
+
+def _draw_figures(layout, figures, share=0.45):
+    """Rows of a label, which has a share of the width, and a text."""
+    column = layout.column(align=True)
+    for label, text in figures.items():
+        row = column.split(factor=share)
+        row.label(text=say(label), translate=False)
+        row.label(text=say(text), translate=False)

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Select and Turn Inward Faces: what a computation read the other way round, in the mesh itself."""
+
+import bpy
+
+from ...bridge.axis.axis_object import TURNED, is_result
+from ...bridge.objects.output_object import is_gone, source_of
+from ...bridge.thickness.inward_faces import select_inward, turn_inward
+from ...core.errors import MedialAxisError
+from ..base.plain_words import told
+from ..base.translation import say
+
+
+def _mesh_of(context):
+    """The active mesh, or the one whose result is active."""
+    active = context.object
+    if is_gone(active):
+        return None
+    thing = source_of(active) if is_result(active) else active
+    return None if is_gone(thing) or thing.type != "MESH" else thing
+
+
+class OBJECT_OT_medial_axis_inward_faces(bpy.types.Operator):
+    bl_idname = "object.medial_axis_inward_faces"
+    bl_label = "Inward Faces"
+    bl_description = "Faces of the mesh that look inward by votes of rays. The medial axis does not depend on this"
+    bl_options = {"REGISTER", "UNDO"}
+
+    action: bpy.props.EnumProperty(
+        name="Action",
+        description="What happens to the faces that look inward",
+        items=[
+            ("SELECT", "Select", "Select these faces in Edit Mode, and no others"),
+            ("TURN", "Turn", "Turn these faces round, so that all faces look outward"),
+        ],
+        default="SELECT",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if _mesh_of(context) is None:
+            cls.poll_message_set(say("Select a mesh, or a medial axis whose mesh is still there"))
+            return False
+        return True
+
+    def execute(self, context):
+        thing = _mesh_of(context)
+        try:
+            if self.action == "TURN":
+                count = turn_inward(thing)
+                self.report({"INFO"}, say(f"{count:,} faces were turned round"))
+            else:
+                count = select_inward(thing)
+                self.report({"INFO"}, say(f"{count:,} faces look inward"))
+        except MedialAxisError as error:
+            self.report({"ERROR"}, told(f"'{thing.name}': {error}"))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+def draw_inward_faces(layout, result):
+    """Two buttons below the sentence about faces that looked inward."""
+    if not result.get(TURNED, 0):
+        return
+    row = layout.row(align=True)
+    select = row.operator(
+        "object.medial_axis_inward_faces", text="Select Them", icon="RESTRICT_SELECT_OFF"
+    )
+    select.action = "SELECT"
+    turn = row.operator("object.medial_axis_inward_faces", text="Turn Them", icon="NORMALS_FACE")
+    turn.action = "TURN"
+
+
+CLASSES = (OBJECT_OT_medial_axis_inward_faces,)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sheets of a medial axis: their panel, and operators that select and separate them."""
+
+import bpy
+
+from ...bridge.axis.axis_object import is_result, result_of
+from ...bridge.axis.parts_objects import part_of_active_face, select_part, separate_parts
+from ...bridge.axis.structure_object import counts_on
+from ...bridge.mesh.attributes import PART, has_attribute
+from ...bridge.objects.output_object import is_gone
+from ...core.errors import MedialAxisError
+from ...core.settings import Form
+from ..base.plain_words import told
+from ..base.tab import InDetails, settings_column
+from ..base.translation import say
+from ..base.view_place import edit_faces
+from ..settings.properties import shown_result
+
+_NONE = "Select a medial axis of the form Clean, or an object whose medial axis was computed before"
+_LABELS = {
+    "sheets": "Sheets",
+    "seams": "Seams",
+    "rims": "Rims",
+    "creases": "Creases",
+    "junctions": "Junctions",
+    "corners": "Corners",
+}
+
+
+def _axis(context):
+    """The axis with parts that the active object is or has."""
+    active = context.object
+    if is_gone(active):
+        return None
+    found = active if is_result(active) else result_of(active)
+    return found if found is not None and has_attribute(found.data, PART.name) else None
+
+
+class _OfParts:
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if _axis(context) is None:
+            cls.poll_message_set(say(_NONE))
+            return False
+        return True
+
+
+class OBJECT_OT_medial_axis_select_part(_OfParts, bpy.types.Operator):
+    bl_idname = "object.medial_axis_select_part"
+    bl_label = "Select Part"
+    bl_description = (
+        "Select the faces of a sheet of the medial axis in edit mode: that of the active face, or "
+        "the first one"
+    )
+
+    number: bpy.props.IntProperty(
+        name="Part", description="The number of the sheet, as in ma_part", default=0, min=0
+    )
+    extend: bpy.props.BoolProperty(
+        name="Extend", description="Keep what is selected", default=False
+    )
+
+    def invoke(self, context, _event):
+        axis = _axis(context)
+        if axis.mode == "EDIT":
+            self.number = max(0, part_of_active_face(axis))
+        return self.execute(context)
+
+    def execute(self, context):
+        axis = _axis(context)
+        if context.object.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        count = select_part(axis, self.number, self.extend)
+        edit_faces(context, axis)
+        self.report({"INFO"}, say(f"Part {self.number} has {count:,} faces"))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
+    bl_idname = "object.medial_axis_separate_parts"
+    bl_label = "Separate Parts"
+    bl_description = (
+        "Make an object of each sheet of the medial axis, in a collection; the axis stays as it is"
+    )
+
+    def execute(self, context):
+        try:
+            collection = separate_parts(_axis(context))
+        except MedialAxisError as error:
+            self.report({"ERROR"}, told(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, say(f"{len(collection.objects):,} parts in '{collection.name}'"))
+        return {"FINISHED"}
+
+
+class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
+    """Sheets and seams: how many there are, their colours, and what can be done with them"""
+
+    bl_label = "Parts"
+    bl_idname = "VIEW3D_PT_medial_axis_parts"
+
+    @classmethod
+    def poll(cls, context):
+        # It is there for every form: where a panel goes and the rest grows by as much, Blender moves no panel.
+        return shown_result(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        if _axis(context) is None:
+            is_clean = shown_result(context)["ma_form"] == Form.CLEAN.name
+            text = "The axis has no sheets" if is_clean else "Only clean forms have parts"
+            layout.label(text=text, icon="INFO")
+            return
+        settings_column(layout).prop(context.scene.medial_axis, "by_part")
+        layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
+        layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
+        column = layout.column(align=True)
+        for name, count in counts_on(_axis(context)).items():
+            row = column.split(factor=0.6)
+            row.label(text=say(_LABELS[name]), translate=False)
+            row.label(text=f"{count:,}", translate=False)
+
+
+CLASSES = (
+    OBJECT_OT_medial_axis_select_part,
+    OBJECT_OT_medial_axis_separate_parts,
+    VIEW3D_PT_medial_axis_parts,
+)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

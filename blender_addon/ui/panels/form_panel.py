@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rows of the panel that choose the form of the axis."""
+
+from ...bridge.axis.slider_ranges import gap_on
+from ...core.settings import Form, applies_to_form
+from ..base.ranged_sliders import draw_slider
+from ..base.tab import draws_buttons
+from ..settings.properties import settings_from, shown_result
+from ..skeleton.skeleton_operators import copy_all
+
+_SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
+
+
+def draw_form(context, layout, panel):
+    """Form, and the slider that matters most for it; under the curve also the way to one of few branches."""
+    layout.prop(panel, "form")
+    _draw_sliders(context, layout, _that_apply(panel)[:1])
+    if panel.form == Form.CURVE.name and draws_buttons(layout):
+        button = layout.operator("object.medial_axis_skeleton", icon="OUTLINER_OB_CURVE")
+        copy_all(context, button)
+
+
+def draw_more_of_form(context, layout, panel):
+    """The other sliders of the form, and whether its places are crisp."""
+    _draw_sliders(context, layout, _that_apply(panel)[1:])
+    row = layout.row()
+    row.active = settings_from(panel).crisp_is_possible
+    row.prop(panel, "crisp")
+
+
+def _draw_sliders(context, layout, names):
+    result = shown_result(context)
+    for name in names:
+        row = layout.row(align=True)
+        draw_slider(context, row, name, result)
+        if name == "simplify" and gap_on(result) is not None:
+            row.operator("object.medial_axis_simplify_to_gap", text="", icon="LIGHT")
+
+
+def _that_apply(panel):
+    return [name for name in _SLIDERS if applies_to_form(name, Form[panel.form])]

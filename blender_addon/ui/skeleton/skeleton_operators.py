@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extract Skeleton and Make Armature."""
+
+from functools import partial
+
+import bpy
+
+from ...bridge.axis.axis_object import shown_curve
+from ...bridge.objects.read_object import read_object
+from ...bridge.objects.source_state import same_state
+from ...bridge.skeleton.armature_object import (
+    check_no_other,
+    find_armature,
+    in_rest,
+    write_armature,
+)
+from ...bridge.skeleton.bind_armature import (
+    bind_by_axis,
+    bind_by_heat,
+    check_bindable,
+    groups_of_others,
+)
+from ...bridge.skeleton.selected_ends import selected_ends
+from ...bridge.skeleton.skeleton_object import (
+    check_parts_writable,
+    check_skeleton_writable,
+    write_parts,
+    write_skeleton,
+)
+from ...core.rig.rig import compute_rig
+from ...core.settings import (
+    BIND,
+    LOOKS,
+    OPTIONS,
+    RIG_OPTIONS,
+    SKELETON_OPTIONS,
+    LimbControl,
+    SkeletonSettings,
+)
+from ...core.skeleton.compute import compute_skeleton
+from ..axis.compute_operator import ComputeOperator
+from ..base.translation import say
+from ..settings.preferences import memory_limit
+from ..settings.properties import (
+    SamplingProperties,
+    copy_settings,
+    draw_sampling,
+    prop,
+    settings_from,
+    with_options,
+)
+
+SKELETON_OPERATORS = {
+    "object.medial_axis_skeleton": "OUTLINER_OB_CURVE",
+    "object.medial_axis_armature": "OUTLINER_OB_ARMATURE",
+}
+HEAT_FAILED = "Automatic weights left vertices without a bone; the weights of the axis were taken"
+
+
+@with_options(SKELETON_OPTIONS)
+class SkeletonProperties:
+    """The options of a skeleton."""
+
+
+class WithEnds:
+    """An operator that can keep only what joins the ends that are selected on the object."""
+
+    selected_ends: bpy.props.BoolProperty(
+        name="Selected Ends",
+        description="Keep only what joins the vertices that are selected in Edit Mode, one or a few at each end",
+        default=False,
+    )
+
+    def settings(self, shape):
+        """The arguments of `compute_skeleton` after the shape, and the ends."""
+        ends = self._ends.pop(id(shape), None)
+        return (settings_from(self), settings_from(self, SkeletonSettings)), ends
+
+    def with_ends(self, thing, shape):
+        """The same shape; its ends are remembered for `settings`."""
+        self._ends = getattr(self, "_ends", {})
+        if self.selected_ends:
+            self._ends[id(shape)] = selected_ends(thing, shape)
+        return shape
+
+
+class WithCurve:
+    """An operator that can start from the curve that is seen."""
+
+    as_shown: bpy.props.BoolProperty(
+        name="As Shown",
+        description="Keep the loops and branches of the curve that is shown, where Form is Curve and its Detail is "
+        "below 1, whatever Detail says here",
+        default=True,
+    )
+
+    def remember_shown(self, thing, shape):
+        """Remember the settings of the curve of an object for `shown_of` the shape that is read from it."""
+        self._shown = getattr(self, "_shown", {})
+        if self.as_shown:
+            self._shown[id(shape)] = shown_curve(thing)
+
+    def shown_of(self, shape):
+        return self._shown.pop(id(shape), None)
+
+
+@with_options(RIG_OPTIONS)
+class ArmatureProperties:
+    """The options of the bones of an armature."""
+
+    bind: prop(BIND)
+
+
+def copy_all(context, button) -> None:
+    """Set the properties of an operator button to those of the panels."""
+    copy_settings(context.scene.medial_axis, button)
+    copy_settings(
+        context.scene.medial_axis_skeleton, button, (*SKELETON_OPTIONS, "per_limb", "bind")
+    )
+
+
+class OBJECT_OT_medial_axis_skeleton(
+    ComputeOperator,
+    WithEnds,
+    WithCurve,
+    SamplingProperties,
+    SkeletonProperties,
+    bpy.types.Operator,
+):
+    bl_idname = "object.medial_axis_skeleton"
+    bl_label = "Extract Skeleton"
+    bl_description = (
+        "Make a curve along the middle of the selected objects, with the radius at every point"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "skeleton"
+
+    sides: prop(OPTIONS["sides"])
+    parent: prop(LOOKS["parent"])
+    parts: bpy.props.BoolProperty(
+        name="Parts",
+        description="Also give the faces of the object itself the attribute ma_part: the branch "
+        "that each belongs to",
+        default=False,
+    )
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent", "sides"):
+            self.layout.prop(self, name)
+        self.layout.prop(self, "sampling")
+        draw_sampling(self.layout.box().column(), self)
+
+    def check_writable(self, thing):
+        check_skeleton_writable(thing)
+        if self.parts:
+            check_parts_writable(thing)
+
+    def read(self, thing, depsgraph):
+        shape = read_object(thing, depsgraph)
+        self.remember_shown(thing, shape)
+        return self.with_ends(thing, shape)
+
+    def work(self, shape):
+        settings, ends = self.settings(shape)
+        shown = self.shown_of(shape)
+        limit = memory_limit()
+        return partial(compute_skeleton, shape, *settings, limit=limit, ends=ends, shown=shown)
+
+    def write(self, thing, found, frame):
+        made = write_skeleton(thing, found, frame)
+        if self.parts:
+            write_parts(thing, found)
+        return made
+
+    def summary(self, found):
+        skeleton = found.skeleton
+        return f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops"
+
+
+class OBJECT_OT_medial_axis_armature(
+    ComputeOperator,
+    WithEnds,
+    WithCurve,
+    SamplingProperties,
+    SkeletonProperties,
+    ArmatureProperties,
+    bpy.types.Operator,
+):
+    bl_idname = "object.medial_axis_armature"
+    bl_label = "Make Armature"
+    bl_description = (
+        "Make few bones along the skeleton of the selected objects, and bind these to them"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "armature"
+    parent = False  # the object follows its bones
+
+    sides: prop(OPTIONS["sides"])
+    replace_weights: bpy.props.BoolProperty(
+        name="Replace Weights",
+        description="Replace weights also where they were painted since they were made",
+        default=False,
+    )
+    armature: bpy.props.StringProperty(
+        name="Armature",
+        description="Add the bones to this armature; without a name, the object gets one of its own",
+    )
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in (*RIG_OPTIONS, "bind", "replace_weights"):
+            self.layout.prop(self, name)
+        self.layout.prop_search(self, "armature", bpy.data, "objects")
+        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "sides", "sampling"):
+            self.layout.prop(self, name)
+        draw_sampling(self.layout.box().column(), self)
+
+    def check_writable(self, thing):
+        check_bindable(thing, self.bind != "NONE", self.replace_weights)
+        check_no_other(thing, find_armature(self.armature))
+
+    def read(self, thing, _depsgraph):
+        with in_rest(thing):
+            shape = read_object(thing, bpy.context.evaluated_depsgraph_get())
+            self.remember_shown(thing, shape)
+            return self.with_ends(thing, shape)
+
+    def work(self, shape):
+        settings, ends = self.settings(shape)
+        words = {"limit": memory_limit(), "ends": ends, "shown": self.shown_of(shape)}
+        return partial(compute_rig, shape, *settings, self.per_limb, **words)
+
+    def write(self, thing, rig, frame):
+        taken, into = groups_of_others(thing), find_armature(self.armature)
+        made = write_armature(thing, rig, frame, taken, LimbControl(self.ik), into)
+        with same_state(thing):
+            self._bind(thing, made, rig)
+        return made
+
+    def _bind(self, thing, made, rig):
+        if self.bind == "AUTOMATIC" and not bind_by_heat(thing, made, rig):
+            self.report({"WARNING"}, say(HEAT_FAILED))
+            made["ma_warnings"] = "\n".join([*rig.warnings, HEAT_FAILED])
+            bind_by_axis(thing, made, rig)
+        elif self.bind == "AXIS":
+            bind_by_axis(thing, made, rig)
+
+    def summary(self, rig):
+        skeleton = rig.made_of.skeleton
+        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends"
+
+
+class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.types.PropertyGroup):
+    """The settings of the panel of skeletons."""
+
+
+CLASSES = (
+    OBJECT_OT_medial_axis_skeleton,
+    OBJECT_OT_medial_axis_armature,
+    MedialAxisSkeletonSettings,
+)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.medial_axis_skeleton = bpy.props.PointerProperty(
+        type=MedialAxisSkeletonSettings
+    )
+
+
+def unregister():
+    del bpy.types.Scene.medial_axis_skeleton
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

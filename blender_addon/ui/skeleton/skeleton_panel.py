@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel of skeletons and armatures."""
+
+import bpy
+
+from ...bridge.objects import output_object
+from ...bridge.skeleton import skeleton_object
+from ...bridge.skeleton.armature_object import BONES, armature_of, is_armature
+from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
+from ..base.plain_words import draw_told, warned
+from ..base.tab import Closed, draw_setting, draws_buttons, settings_column
+from ..base.translation import say
+from .skeleton_operators import SKELETON_OPERATORS, copy_all
+
+
+class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
+    bl_label = "Rig"
+
+    def draw(self, context):
+        column = settings_column(self.layout)
+        for name in (
+            "detail",
+            "per_limb",
+            "mirror",
+            "bind",
+        ):  # the others are in the panels of the operators
+            draw_setting(column, context.scene.medial_axis_skeleton, name)
+        converts = bpy.ops.object.medial_axis_to_curve.poll()
+        if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
+            for operator, icon in SKELETON_OPERATORS.items():
+                copy_all(context, self.layout.operator(operator, icon=icon))
+            if converts:
+                self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
+        for thing in _shown(context):
+            _draw_figures(context, self.layout.column(), thing)
+
+
+def _shown(context):
+    """The skeleton and the armature that the panel describes: the active object, or those made of it."""
+    active = getattr(context, "object", None)
+    if active is None:
+        return []
+    if is_skeleton(active) or is_armature(active):
+        return [active]
+    return [found for found in (skeleton_of(active), armature_of(active)) if found is not None]
+
+
+def _draw_figures(context, layout, thing):
+    figures = {"Bones": thing.get(BONES, 0)}
+    if is_skeleton(thing):
+        names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
+        figures = {
+            label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
+        }
+    layout.label(text=thing.name, icon="DOT", translate=False)
+    for label, number in figures.items():
+        row = layout.split(factor=0.45)
+        row.label(text=say(label), translate=False)
+        row.label(text=f"{number:,}", translate=False)
+    for warning in thing.get(output_object.WARNINGS, "").splitlines():
+        draw_told(context, layout, warning, "ERROR", warned)
+
+
+CLASSES = (VIEW3D_PT_medial_axis_skeleton,)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Export Thickness: what was measured as a page for people, or as a file for programs."""
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+
+from ...bridge.objects.output_object import is_gone, source_of
+from ...bridge.thickness import thickness_object as of
+from ...core.errors import InvalidInputError, MedialAxisError
+from ...core.thickness.thickness import kept_measurement
+from ...core.thickness.thin_parts import find_thin_parts
+from ...core.thickness.write_thickness import THICKNESS_FORMATS, export_thickness
+from ..base.export_file import ExportFile
+from ..base.plain_words import told
+from ..base.translation import say
+from .thickness_properties import shown_thickness
+
+_LABELS = {
+    "HTML": "Page with pictures, a histogram and the thinnest places",
+    "CSV": "Table of the thickness at each vertex",
+    "JSON": "Figures and thin patches",
+    "PLY": "The measured surface in colours",
+}
+_EXTENSIONS = {name: f".{name.lower()}" for name in _LABELS}
+assert set(_EXTENSIONS.values()) == set(THICKNESS_FORMATS)
+_METRIC = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm"}
+
+
+class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
+    bl_idname = "export_scene.medial_axis_thickness"
+    bl_label = "Export Thickness"
+    bl_description = "Write the measured thickness of the active object, in world coordinates"
+
+    filter_glob: StringProperty(
+        default=";".join(f"*{suffix}" for suffix in THICKNESS_FORMATS), options={"HIDDEN"}
+    )
+    file_format: EnumProperty(
+        name="Format",
+        description="Kind of file, where the file name does not say it",
+        items=[(name, _EXTENSIONS[name], label) for name, label in _LABELS.items()],
+        default="HTML",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if shown_thickness(context) is None:
+            cls.poll_message_set(say("Select an object whose thickness was measured before"))
+            return False
+        return True
+
+    @property
+    def extensions(self):
+        return _EXTENSIONS
+
+    def default_name(self, context):
+        return f"{_measured(context).name} Thickness"
+
+    def execute(self, context):
+        carrier = shown_thickness(context)
+        found = kept_measurement(carrier[of.KEY])
+        try:
+            if found is None:
+                raise InvalidInputError(
+                    f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
+                    "press Measure Thickness again"
+                )
+            least = context.scene.medial_axis_thickness.minimum_patch
+            parts = find_thin_parts(found, carrier[of.LIMIT], least)
+            name = _measured(context).name
+            written = export_thickness(found, parts, self.chosen_path, _unit(context), name)
+        except MedialAxisError as error:
+            self.report({"ERROR"}, told(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, say(f"Wrote the thickness to '{written.name}'"))
+        return {"FINISHED"}
+
+
+def _measured(context):
+    """The object whose thickness the carrier shows."""
+    carrier = shown_thickness(context)
+    source = source_of(carrier) if of.is_copy(carrier) else carrier
+    return carrier if is_gone(source) else source
+
+
+def _unit(context):
+    """The unit of Blender's coordinates, "" where the scene has none."""
+    units = context.scene.unit_settings
+    return _METRIC.get(round(units.scale_length, 9), "") if units.system == "METRIC" else ""
+
+
+CLASSES = (EXPORT_SCENE_OT_medial_axis_thickness,)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
