@@ -18,11 +18,13 @@ OUTPUT    a file, or a folder; {name}, {file} and #### as there.
           .csv   thickness at every vertex of the input and every other measured point
           .json  minimum, area and share below the limit, patches with place, area and minimum
           .ply   the measured surface, coloured: red at the limit, blue from three times the limit
+          With --page FILE.html there is no OUTPUT: the page has a row for each INPUT.
 
 examples:
   medial_axis thickness bracket.stl bracket.json --limit 1.2 --unit mm
   medial_axis thickness parts/*.stl reports/ --format csv --limit 1.2
   medial_axis thickness hinge.stl gaps.ply --limit 0.4 --gap
+  medial_axis thickness parts/*.stl --limit 0.8 --unit mm --page report.html
 
 exit codes:
   0 nothing is thinner than the limit   1 something failed   2 wrong usage   3 an input cannot be used
@@ -43,7 +45,11 @@ def parser() -> argparse.ArgumentParser:
         "--unit", default="", metavar="NAME", help="what lengths are in, for the report; mm, say"
     )
     add_sampling(found.add_argument_group("method"))
-    add_files(found, THICKNESS_FORMATS, "json", _work)
+    add_files(found, THICKNESS_FORMATS, "json", _work).add_argument(
+        "--page",
+        metavar="FILE",
+        help="one page of .html with a row for each INPUT, instead of OUTPUT",
+    )
     return found
 
 

@@ -46,7 +46,7 @@ def add_files(
         Returns the work that the arguments of a command line ask for.
     """
     known = tuple(extensions)
-    parser.set_defaults(known=known, work_from=work_from)
+    parser.set_defaults(known=known, work_from=work_from, page=None)
     add_options(parser.add_argument_group("memory"), MemoryLimit)
     add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
