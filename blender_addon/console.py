@@ -67,8 +67,7 @@ class Console:
         if report["status"] in ("failed", "cancelled"):
             self.complain(f"{name}: {report['error']}")
         elif not self._json:
-            how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
-            self._write(f"{report['output']}: {_said(report)}, {how}\n")
+            self._write(f"{name if 'row' in report else report['output']}: {_ended(report)}\n")
 
     def _write(self, text: str) -> None:
         try:
@@ -99,6 +98,13 @@ def _shapes(report: dict[str, Any]) -> str:
 
 def _length(value: float | None) -> str:
     return "unknown" if value is None else f"{value:.4g}"
+
+
+def _ended(report: dict[str, Any]) -> str:
+    if "verdict" in report:
+        return report["verdict"]
+    how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
+    return f"{_said(report)}, {how}"
 
 
 def _said(report: dict[str, Any]) -> str:

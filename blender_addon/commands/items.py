@@ -37,8 +37,10 @@ def check_outputs(wanted: argparse.Namespace) -> None:
     ]
     files = files_of(wanted, [*wanted.inputs, *(item.input for item in known)])
     try:
-        for item in known:
-            files.claim(item.output)
+        for output in (
+            [item.output for item in known] if wanted.page is None else [Path(wanted.output)]
+        ):
+            files.claim(output)
     except InvalidInputError as error:
         raise UsageError(str(error)) from error
 
@@ -96,7 +98,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
         if path is not None:
             read_scene.load(path, wanted.allow_scripts)
         names = read_scene.names(list(filter(None, wanted.object or ())))
-        if len(names) > 1 and "{name}" not in wanted.output:
+        if len(names) > 1 and wanted.page is None and "{name}" not in wanted.output:
             raise InvalidInputError(
                 f"Expected {{name}} in OUTPUT for {len(names)} objects, found '{wanted.output}'; "
                 "add it, or choose one with --object"

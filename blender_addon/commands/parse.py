@@ -44,7 +44,8 @@ def _with_paths_behind_dashes(words: Sequence[str]) -> list[str]:
 
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
-    *wanted.inputs, output = wanted.paths
+    paged = wanted.page is not None
+    *wanted.inputs, output = [*wanted.paths, wanted.page] if paged else wanted.paths
     wanted.work = wanted.record.from_words(wanted)
     wanted.limit = settings_from(wanted, MemoryLimit)
     wanted.division = settings_from(wanted, Division)
@@ -56,13 +57,13 @@ def _complete(wanted: argparse.Namespace) -> None:
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    extension_of(output, tuple(wanted.record.formats))
+    extension_of(output, (".html",) if paged else tuple(wanted.record.formats))
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong
     if not wanted.inputs and not inside_blender():
         raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
-    if has_number(Path(output).name) != (wanted.frames is not None):
+    if not paged and has_number(Path(output).name) != (wanted.frames is not None):
         raise ValueError(
             "Expected --frames together with #### in OUTPUT, found one without the other"
         )
@@ -70,7 +71,8 @@ def _complete(wanted: argparse.Namespace) -> None:
         raise ValueError(
             f"Expected #### in INPUT with --frames, found none in '{still[0]}'; add it"
         )
-    if len(wanted.inputs) > 1 and not ("{name}" in output or "{file}" in output):
+    named = "{name}" in output or "{file}" in output
+    if len(wanted.inputs) > 1 and not (named or paged):
         raise ValueError(
             f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
         )

@@ -36,7 +36,7 @@ def parser_of(word: str, record: type[Product]) -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     parser.add_argument("paths", nargs="+", metavar="PATH", help="INPUT ... OUTPUT, see below")
-    parser.set_defaults(record=record)
+    parser.set_defaults(record=record, page=None)
     record.add_words(parser)
     _add_files(parser, record)
     return parser

@@ -246,6 +246,23 @@ def test_what_was_measured_is_exported(tmp_path):
     assert not (tmp_path / "again.html").exists()
 
 
+def test_a_selection_is_exported_as_one_page(tmp_path):
+    """A row for each selected object, also for one that was not measured; other formats have the active object."""
+    ring, other = torus(), box()
+    other.name = "Never measured"
+    export, path = bpy.ops.export_scene.medial_axis_thickness, tmp_path / "parts.html"
+    measure(ring, limit=0.6)
+    select(ring, other)
+    assert export(filepath=str(path)) == {"FINISHED"}
+    page = path.read_text(encoding="utf-8")
+    assert "Thickness of 2 parts" in page and "of 1 of 2 parts. 1 part could not" in page
+    assert "Expected a measurement of &#x27;Never measured&#x27;" in page
+    assert page.count("data:image/png;base64,") == 1
+    assert export(filepath=str(path), one_page=False) == {"FINISHED"}
+    assert "Thickness of Torus" in path.read_text(encoding="utf-8")
+    assert export(filepath=str(tmp_path / "parts.csv")) == {"FINISHED"}
+
+
 def test_edit_mode_and_places_without_a_measurement_are_refused():
     source = torus()
     select(source)

@@ -111,6 +111,37 @@ def test_a_page_shows_the_thin_places_in_colours(box, tmp_path):
         assert (red[drawn] > blue[drawn] + 30).mean() > 0.95, "all of it is below the limit"
 
 
+def test_one_page_has_a_row_for_each_part(box, tmp_path, capsys):
+    """The thin part is told at its place, a part that cannot be read with its reason, and there is one exit code."""
+    plate = write_off(tmp_path / "plate.off", block(1.0, 0.7, 0.1))
+    page = tmp_path / "new" / "parts.html"
+    words = (box, plate, "--limit", 0.2, "--unit", "mm", "--page", page)
+    assert run(*words) == cli.THIN
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].startswith("box.off: minimum 0.4 mm, 0 % below 0.2 mm, done in")
+    assert said[2] == f"{page}: Thinner than 0.2 mm at 1 place of 1 of 2 parts."
+    text = page.read_text(encoding="utf-8")
+    rows = re.findall("<tr><td>.*</tr>", text)
+    assert "Thickness of 2 parts" in text and "http" not in text and len(rows) == 2
+    assert all("data:image/png;base64," in row and "<svg" in row for row in rows)
+    assert ["0.4 mm" in row for row in rows] == [True, False]
+    assert ['class="thin"' in row for row in rows] == [False, True]
+    assert sorted(p.name for p in page.parent.iterdir()) == ["parts.html"]
+    assert run(tmp_path / "none.off", *words, "--json") == cli.INPUT
+    told = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [report.get("row") for report in told] == [None, 1 + 1, 3, None]
+    assert told[-1]["rows"] == 3 and told[-1]["places"] == 1
+    assert "1 part could not be measured" in page.read_text(encoding="utf-8")
+
+
+def test_a_page_that_cannot_be_written_is_an_error(box, tmp_path, capsys):
+    assert run(box, "--page", box) == cli.USAGE
+    assert "ends in .html, found" in capsys.readouterr().err
+    (tmp_path / "file").write_text("")
+    assert run(box, "--page", tmp_path / "file" / "page.html") == cli.FAILED
+    capsys.readouterr()
+
+
 def pixels_of(data):
     """(h, w, 3) of a PNG file that is not filtered; every part has its checksum."""
     file, chunks, at = base64.b64decode(data), {}, 8

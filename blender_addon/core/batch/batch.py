@@ -145,14 +145,35 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     MedialAxisError
         The task failed, or there is nothing to write; no output was written.
     """
+    found, output = result_of(begun, outcome), begun.item.output
+    make_folder(output)
+    report = {
+        **report_of(begun, found, begun.work.write(found, output, begun.shape.frame)),
+        "stamp": begun.stamp(thinned=found.chosen is not None and bool(found.chosen.thinned)),
+        "digest": _digest(output),
+    }
+    _write_report(report, output)
+    return report
+
+
+def result_of(begun: Begun, outcome: Outcome) -> Any:
+    """Return what the task computed.
+
+    Raises
+    ------
+    MedialAxisError
+        The task failed, or there is nothing to write.
+    """
     CACHE.clear()  # no other output uses this analysis
     if outcome.error is not None:
         raise outcome.error
-    found, output = outcome.value, begun.item.output
-    begun.work.check(found)
-    _make_folder(output)
-    left_out = begun.work.write(found, output, begun.shape.frame)
-    report = {
+    begun.work.check(outcome.value)
+    return outcome.value
+
+
+def report_of(begun: Begun, found: Any, left_out: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Return the report of a result; `left_out` are warnings about what its file does not hold."""
+    return {
         "status": "done",
         **_place(begun.item),
         **begun.work.figures(found),
@@ -160,11 +181,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "warnings": [*begun.warnings, *found.warnings, *left_out],
         "seconds": round(found.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp(thinned=found.chosen is not None and bool(found.chosen.thinned)),
-        "digest": _digest(output),
     }
-    _write_report(report, output)
-    return report
 
 
 def failure(item: Item, error: BaseException) -> dict[str, Any]:
@@ -241,7 +258,8 @@ def _place(item: Item) -> dict[str, Any]:
     return {**place, "output": str(item.output)}
 
 
-def _make_folder(output: Path) -> None:
+def make_folder(output: Path) -> None:
+    """Make the folder of an output where it is missing."""
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

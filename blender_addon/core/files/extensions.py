@@ -29,4 +29,4 @@ def extension_of(path: str | os.PathLike, known: Iterable[str]) -> str:
 def listed(extensions: Iterable[str]) -> str:
     """Return the extensions as a list for messages, such as '.ma, .ply, ... or .npz'."""
     *first, last = extensions
-    return f"{', '.join(first)} or {last}"
+    return f"{', '.join(first)} or {last}" if first else last

@@ -45,11 +45,13 @@ OUTPUT    a file, or a folder; {name}, {file} and #### as there.
           .csv   thickness at every vertex of the input and every other measured point
           .json  minimum, area and share below the limit, patches with place, area and minimum
           .ply   the measured surface, coloured: red at the limit, blue from three times the limit
+          With --page FILE.html there is no OUTPUT: the page has a row for each INPUT.
 
 examples:
   medial_axis thickness bracket.stl bracket.json --limit 1.2 --unit mm
   medial_axis thickness parts/*.stl reports/ --format csv --limit 1.2
   medial_axis thickness hinge.stl gaps.ply --limit 0.4 --gap
+  medial_axis thickness parts/*.stl --limit 0.8 --unit mm --page report.html
 """
 
     @classmethod
@@ -63,6 +65,11 @@ examples:
             help="what lengths are in, for the report; mm, say",
         )
         add_sampling(parser.add_argument_group("method"))
+        parser.add_argument(
+            "--page",
+            metavar="FILE",
+            help="one page of .html with a row for each INPUT, instead of OUTPUT",
+        )
 
     @classmethod
     def from_words(cls, words: argparse.Namespace) -> Thickness:

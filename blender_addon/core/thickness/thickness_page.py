@@ -31,13 +31,14 @@ _VIEWS = {  # from the shape to the eye
 _CLOSE = 6  # patches that are shown close up
 _SIZE, _SMALL = (560, 420), (270, 200)
 _AROUND = 4.0  # what is seen round a patch, in its size
+STYLE = """
+body { font: 16px/1.5 sans-serif; max-width: 72em; margin: 2em auto; padding: 0 1em; color: #222 }
+figure { display: inline-block; margin: 0 1em 1em 0; vertical-align: top }
+figcaption, small { color: #555 }
+td, th { padding: 0.2em 1.5em 0.2em 0; text-align: left }"""
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>Thickness of {title}</title>
-<style>
-body {{ font: 16px/1.5 sans-serif; max-width: 72em; margin: 2em auto; padding: 0 1em; color: #222 }}
-figure {{ display: inline-block; margin: 0 1em 1em 0; vertical-align: top }}
-figcaption, small {{ color: #555 }}
-td, th {{ padding: 0.2em 1.5em 0.2em 0; text-align: left }}
+<style>{style}
 </style>
 <h1>Thickness of {title}</h1>
 <table>{rows}</table>
@@ -75,14 +76,15 @@ def page_of(
     scale = scale_of(found, parts.limit)
     rgb = colours(scale.positions(found.lengths), 0.0, 1.0)[:, :3].astype(np.float64)
     views = [
-        _figure(picture_of(points, found.triangles, rgb, np.array(eye), *_SIZE), name)
+        figure_of(picture_of(points, found.triangles, rgb, np.array(eye), *_SIZE), name)
         for name, eye in _VIEWS.items()
         if len(points)
     ]
     return _PAGE.format(
+        style=STYLE,
         title=html.escape(title),
         rows=_rows(found, parts, unit),
-        bars=_bars(found, scale, unit),
+        bars=bars_of(found, scale, unit),
         views="\n".join(views),
         patches=_patches(found, parts, unit, points, rgb),
         warnings="".join(f"<p>{html.escape(str(warning))}</p>\n" for warning in found.warnings),
@@ -90,11 +92,11 @@ def page_of(
 
 
 def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
-    cells = {"Minimum": _length(found.minimum, unit)}
+    cells = {"Minimum": length_text(found.minimum, unit)}
     if found.between_parallel is not None:
-        cells["Between nearly parallel walls"] = _length(found.between_parallel, unit)
+        cells["Between nearly parallel walls"] = length_text(found.between_parallel, unit)
     if parts.limit > 0.0:
-        cells["Limit"] = _length(parts.limit, unit)
+        cells["Limit"] = length_text(parts.limit, unit)
         cells["Thinner than the limit"] = (
             f"{share_text(parts.share)} of the surface, {_patches_text(len(parts.patches))}"
         )
@@ -106,8 +108,8 @@ def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
     )
 
 
-def _bars(found: Measurement, scale: ThicknessScale, unit: str) -> str:
-    """Return the histogram as SVG; the limit is a line."""
+def bars_of(found: Measurement, scale: ThicknessScale, unit: str) -> str:
+    """Return the histogram as SVG, which a style may scale; the limit is a line."""
     shares, bounds = histogram(found, scale), scale.bounds
     middle = (bounds[:-1] + bounds[1:]) / 2
     fills = [_web(rgb) for rgb in colours(scale.positions(middle), 0.0, 1.0)[:, :3]]
@@ -115,7 +117,7 @@ def _bars(found: Measurement, scale: ThicknessScale, unit: str) -> str:
     made = []
     for step, (share, fill) in enumerate(zip(shares, fills, strict=True)):
         tall = high * float(share) / most
-        text = f"{_length(bounds[step], unit)} to {_length(bounds[step + 1], unit)}: {share_text(share)}"
+        text = f"{length_text(bounds[step], unit)} to {length_text(bounds[step + 1], unit)}: {share_text(share)}"
         made.append(
             f'<rect x="{wide * step}" y="{high - tall:.1f}" width="{wide - 3}" height="{tall:.1f}" '
             f'fill="{fill}"><title>{html.escape(text)}</title></rect>'
@@ -129,10 +131,11 @@ def _bars(found: Measurement, scale: ThicknessScale, unit: str) -> str:
         )
     anchor = {0: "start", STEPS: "end"}
     made += [
-        f'<text x="{wide * at}" y="{high + 20}" text-anchor="{anchor.get(at, "middle")}">{_length(value, unit)}</text>'
+        f'<text x="{wide * at}" y="{high + 20}" text-anchor="{anchor.get(at, "middle")}">'
+        f"{length_text(value, unit)}</text>"
         for at, value in ticks.items()
     ]
-    size = f'width="{wide * STEPS}" height="{high + 30}"'
+    size = f'width="{wide * STEPS}" height="{high + 30}" viewBox="0 0 {wide * STEPS} {high + 30}"'
     return (
         f'<svg {size} role="img" aria-label="Shares of the area by thickness">{"".join(made)}</svg>'
     )
@@ -173,10 +176,11 @@ def _close_up(
     eye = normal + np.array([0.25, -0.25, 0.35])
     picture = picture_of(points, found.triangles, rgb, eye, *_SMALL, focus=((a + b + c) / 3, size))
     place = ", ".join(f"{x:.4g}" for x in (a + b + c) / 3)
-    return _figure(picture, f"{number + 1}: {_length(patch.minimum, unit)} at ({place})")
+    return figure_of(picture, f"{number + 1}: {length_text(patch.minimum, unit)} at ({place})")
 
 
-def _figure(pixels: NDArray[np.uint8], text: str) -> str:
+def figure_of(pixels: NDArray[np.uint8], text: str) -> str:
+    """Return a picture with its text below it."""
     data = base64.b64encode(png(pixels)).decode("ascii")
     return (
         f'<figure><img src="data:image/png;base64,{data}" alt="{html.escape(text)}">'
@@ -188,7 +192,8 @@ def _patches_text(count: int) -> str:
     return "1 patch" if count == 1 else f"{count:,} patches"
 
 
-def _length(value: float, unit: str) -> str:
+def length_text(value: float, unit: str) -> str:
+    """Return a length with its unit."""
     return "unknown" if not math.isfinite(value) else f"{value:.4g} {unit}".strip()
 
 

@@ -2,14 +2,16 @@
 """Export Thickness: what was measured as a page for people, or as a file for programs."""
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness import thickness_object as of
 from ...core.errors import InvalidInputError, MedialAxisError
+from ...core.thickness.parts_page import export_page, row_of, row_without, verdict_of
 from ...core.thickness.thickness import kept_measurement
 from ...core.thickness.thin_parts import find_thin_parts
 from ...core.thickness.write_thickness import THICKNESS_FORMATS, export_thickness
+from ..axis.selected_sources import sources
 from ..base.export_file import ExportFile
 from ..base.plain_words import told
 from ..base.translation import say
@@ -40,6 +42,11 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
         items=[(name, _EXTENSIONS[name], label) for name, label in _LABELS.items()],
         default="HTML",
     )
+    one_page: BoolProperty(
+        name="Selected Objects",
+        description="A page has a row for each selected object, where several are selected",
+        default=True,
+    )
 
     @classmethod
     def poll(cls, context):
@@ -56,23 +63,53 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
         return f"{_measured(context).name} Thickness"
 
     def execute(self, context):
-        carrier = shown_thickness(context)
-        found = kept_measurement(carrier[of.KEY])
+        chosen = list(sources(context))
+        paged = self.one_page and len(chosen) > 1 and self.chosen_path.lower().endswith(".html")
         try:
-            if found is None:
-                raise InvalidInputError(
-                    f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
-                    "press Measure Thickness again"
-                )
-            least = context.scene.medial_axis_thickness.minimum_patch
-            parts = find_thin_parts(found, carrier[of.LIMIT], least)
-            name = _measured(context).name
-            written = export_thickness(found, parts, self.chosen_path, _unit(context), name)
+            written = self._write_page(context, chosen) if paged else self._write_active(context)
         except MedialAxisError as error:
             self.report({"ERROR"}, told(error))
             return {"CANCELLED"}
         self.report({"INFO"}, say(f"Wrote the thickness to '{written.name}'"))
         return {"FINISHED"}
+
+    def _write_active(self, context):
+        found, parts = _kept(context, shown_thickness(context))
+        name = _measured(context).name
+        return export_thickness(found, parts, self.chosen_path, _unit(context), name)
+
+    def _write_page(self, context, chosen):
+        """One page of several objects; those that were not measured have a row that says so."""
+        found, parts = _kept(context, shown_thickness(context))
+        unit, between = _unit(context), found.settings.between
+        rows = [_row(context, thing, unit) for thing in chosen]
+        verdict = verdict_of(rows, parts.limit, unit, between)
+        return export_page(rows, self.chosen_path, verdict, between)
+
+
+def _row(context, thing, unit):
+    carrier = of.carrier_of(thing)
+    try:
+        if carrier is None:
+            raise InvalidInputError(
+                f"Expected a measurement of '{thing.name}', found none; press Measure Thickness"
+            )
+        found, parts = _kept(context, carrier)
+    except MedialAxisError as error:
+        return row_without(thing.name, told(error))
+    return row_of(thing.name, found, parts, unit, found.warnings)
+
+
+def _kept(context, carrier):
+    """The measurement that a carrier shows, and its thin parts."""
+    found = kept_measurement(carrier[of.KEY])
+    if found is None:
+        raise InvalidInputError(
+            f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
+            "press Measure Thickness again"
+        )
+    least = context.scene.medial_axis_thickness.minimum_patch
+    return found, find_thin_parts(found, carrier[of.LIMIT], least)
 
 
 def _measured(context):
