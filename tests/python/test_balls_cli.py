@@ -1,110 +1,153 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`medial_axis balls` on the command line: files, frames, batches, reports, memory, streams."""
+"""One contract for all commands: reports, batches, frames, what is kept, limits, streams and exit codes."""
 
 import json
 import os
 import subprocess
 import sys
+from typing import NamedTuple
 
 import medial_axis
+import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.machine.cache import CACHE
-from support import meshes
-from support.meshes import write_off
+from support.meshes import torus, write_off
+from support.thick_meshes import block
 
-TORUS = meshes.torus(1.0, 0.4, 48, 24)
-WORDS = ("--count", "6", "--mode", "around", "--sampling", "vertices")
+PLATE = block(4.0, 3.0, 0.4)
+FEW = ("--sampling", "surface", "--samples", "500")
+
+
+class Command(NamedTuple):
+    words: tuple
+    options: tuple
+    suffix: str
+    other: tuple  # an option that changes the result
+    figure: str  # in the report
+    may_end: tuple = (cli.DONE,)  # where all is well: thin walls are told by an exit code
+
+
+THIN = (cli.DONE, cli.THIN)
+COMMANDS = {
+    "axis": Command((), FEW, "ma", ("--theta", "40"), "facets"),
+    "balls": Command(("balls",), (*FEW, "--count", "6"), "ma", ("--count", "5"), "covered"),
+    "skeleton": Command(("skeleton",), FEW, "swc", ("--detail", "0.9"), "ends"),
+    "thickness": Command(("thickness",), FEW, "csv", ("--limit", "0.3"), "minimum", THIN),
+    "thicken": Command(
+        ("thicken",), (*FEW, "--limit", "0.8"), "ply", ("--limit", "0.9"), "farthest_move", THIN
+    ),
+    "midsurface": Command(("midsurface",), FEW, "ply", ("--size", "1"), "sheets"),
+    "hollow": Command(
+        ("hollow",),
+        ("--wall", "0.15", "--voxel-size", "0.12"),
+        "stl",
+        ("--wall", "0.14"),
+        "cavities",
+    ),
+}
+
+
+@pytest.fixture(params=COMMANDS)
+def command(request):
+    """A row of the table."""
+    return COMMANDS[request.param]
 
 
 @pytest.fixture
-def source(tmp_path):
-    return write_off(tmp_path / "torus.off", TORUS)
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_off(tmp_path / "plate.off", PLATE)
+    return tmp_path
 
 
-def run(*words):
-    return cli.main(["balls", *map(str, words), *WORDS])
+@pytest.fixture
+def run(command, capsys):
+    """(words) -> exit code, reports, standard error."""
+
+    def words(*words):
+        code = cli.main([*command.words, *command.options, *words, "--json"])
+        said = capsys.readouterr()
+        return code, [json.loads(line) for line in said.out.splitlines()], said.err
+
+    return words
 
 
-def test_the_file_is_the_library_s(source, tmp_path, capsys):
-    out = tmp_path / "torus.json"
-    assert run(source, out) == cli.DONE
-    assert "6 balls, 100.0 % of the volume" in capsys.readouterr().out
-    found = medial_axis.cover_by_balls(*TORUS, count=6, mode="around", sampling="vertices")
-    assert out.read_bytes() == medial_axis.write_balls(found, tmp_path / "b.json").read_bytes()
-    assert run(source, out) == cli.DONE and ", kept" in capsys.readouterr().out
+def test_a_result_is_reported_kept_and_made_again(here, run, command):
+    out = f"plate.{command.suffix}"
+    code, (report,), said = run("plate.off", out)
+    assert code in command.may_end and said.count("\n") == len(report["warnings"])
+    assert report["status"] == "done" and command.figure in report
+    assert json.loads((here / f"{out}.json").read_text()) == report
+    before = (here / out).read_bytes()
+    assert run("plate.off", out)[1][0] == {**report, "status": "kept"}
+    code, (other,), _ = run("plate.off", out, *command.other)
+    name, value = command.other[0].removeprefix("--"), command.other[1]
+    assert other["status"] == "done" and other["settings"][name] == float(value)
+    assert run("plate.off", out, "--force")[1][0]["status"] == "done"
+    assert (here / out).read_bytes() == before
 
 
-def test_a_batch_reports_in_json_and_one_bad_input_stops_no_other(source, tmp_path, capsys):
-    bad = tmp_path / "bad.off"
-    bad.write_text("nonsense")
-    code = run(source, bad, write_off(tmp_path / "b.off", TORUS), f"{tmp_path}/out/", "--format", "ma",
-               "--json")  # fmt: skip
-    reports = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert code == cli.INPUT
+def test_one_bad_input_stops_no_other(here, run, command):
+    (here / "bad.off").write_text("nonsense")
+    write_off(here / "last.off", PLATE)
+    words = "plate.off", "bad.off", "last.off", "out/", "--format", command.suffix
+    code, reports, said = run(*words)
+    assert code == cli.INPUT and "bad.off" in said
     assert [report["status"] for report in reports] == ["done", "failed", "done"]
-    assert reports[0]["count"] == 6 and reports[0]["covered"] == 1.0
-    assert reports[0]["settings"]["count"] == 6 and reports[0]["settings"]["mode"] == "around"
-    assert sorted(path.name for path in (tmp_path / "out").glob("*.ma")) == ["b.ma", "torus.ma"]
+    names = sorted(path.name for path in (here / "out").glob(f"*.{command.suffix}"))
+    assert names == [f"last.{command.suffix}", f"plate.{command.suffix}"]
 
 
-def test_frames(tmp_path):
+def test_frames(here, run, command):
     for frame in (1, 2):
-        write_off(tmp_path / f"walk_000{frame}.off", (TORUS[0] * frame, TORUS[1]))
-    paths = tmp_path / "walk_####.off", tmp_path / "balls_####.json"
-    assert run(*paths, "--frames", "1-2") == cli.DONE
-    radii = [
-        json.loads((tmp_path / f"balls_000{frame}.json").read_text())["balls"][0]["radius"]
-        for frame in (1, 2)
-    ]
-    assert radii[1] == 2 * radii[0], "the second torus is exactly twice as large"
+        write_off(here / f"walk_000{frame}.off", PLATE)
+    out = f"walk_####.{command.suffix}"
+    code, reports, _ = run("walk_####.off", f"out/{out}", "--frames", "1-2")
+    assert code in command.may_end and [report["frame"] for report in reports] == [1, 2]
+    first, second = sorted((here / "out").glob(f"*.{command.suffix}"))
+    assert first.read_bytes() == second.read_bytes()
 
 
-def test_other_settings_are_computed_again(source, tmp_path, capsys):
-    out = tmp_path / "torus.json"
-    assert run(source, out) == cli.DONE
-    assert run(source, out, "--options", "--count 5") == cli.DONE
-    assert ", done in" in capsys.readouterr().out.splitlines()[-1]
-    assert len(json.loads(out.read_text())["balls"]) == 5
-
-
-def test_memory_limit(source, tmp_path, capsys):
+@pytest.mark.parametrize("command", ["axis", "balls", "skeleton", "midsurface"], indirect=True)
+def test_memory_limit(here, run, command):
+    """A command that analyses samples says before it begins that they do not fit."""
     CACHE.clear()  # an analysis that an earlier test left there needs no memory
-    assert run(source, tmp_path / "torus.json", "--memory-limit", "1") == cli.FAILED
-    assert "the limit of 1 MB" in capsys.readouterr().err
-    assert not (tmp_path / "torus.json").exists()
+    words = "--samples", "20000", "--memory-limit", "1"
+    code, _, said = run("plate.off", f"plate.{command.suffix}", *words)
+    assert code == cli.FAILED and "the limit of 1 MB" in said
+    assert sorted(path.name for path in here.iterdir()) == ["plate.off"]
 
 
-def test_closed_standard_output(source, tmp_path):
+def test_exit_codes(here, run, command):
+    out = f"plate.{command.suffix}"
+    assert run("none.off", out)[0] == cli.INPUT
+    for wrong in (["plate.off", "plate.xyz"], ["plate.off", out, "--nonsense"], ["plate.off"]):
+        assert run(*wrong)[0] == cli.USAGE
+    assert run("plate.off", out, "--options", f"{command.other[0]} nan")[0] == cli.USAGE
+    assert sorted(path.name for path in here.iterdir()) == ["plate.off"]
+
+
+def test_closed_standard_output(here, command):
     """Nobody reads: the files are written up to there, and the exit code is that of SIGPIPE."""
     read, write = os.pipe()
     os.close(read)
-    words = ["balls", source, str(tmp_path / "torus.json"), *WORDS]
+    words = [*command.words, "plate.off", f"plate.{command.suffix}", *command.options]
     program = [sys.executable, os.path.dirname(medial_axis.__file__)]
     done = subprocess.run([*program, *words], stdout=write, stderr=subprocess.PIPE, text=True)
     os.close(write)
-    assert done.returncode == cli.CLOSED_PIPE and done.stderr == ""
-    assert (tmp_path / "torus.json").exists()
+    assert done.returncode == cli.CLOSED_PIPE
+    assert (here / f"plate.{command.suffix}").exists()
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no /dev/full")
-def test_standard_output_is_full(source, tmp_path):
-    words = ["balls", source, str(tmp_path / "torus.json"), *WORDS]
-    program = [sys.executable, os.path.dirname(medial_axis.__file__)]
-    with open("/dev/full", "wb") as full:
-        done = subprocess.run([*program, *words], stdout=full, stderr=subprocess.PIPE, text=True)
-    assert done.returncode == cli.FAILED and (tmp_path / "torus.json").exists()
-    assert done.stderr.count("\n") == 1 and "No space left" in done.stderr
-
-
-@pytest.mark.parametrize(
-    "words", [("x.ply",), ("x.json", "--theta", "30"), ("x.json", "--options", "--count 0")]
-)
-def test_wrong_usage(source, tmp_path, words, capsys):
-    assert run(source, tmp_path / words[0], *words[1:]) == cli.USAGE
-    capsys.readouterr()
-
-
-def test_missing_input(tmp_path, capsys):
-    assert run(tmp_path / "none.off", tmp_path / "x.json") == cli.INPUT
-    capsys.readouterr()
+def test_the_file_is_the_library_s(tmp_path):
+    mesh = torus(1.0, 0.4, 48, 24)
+    source = write_off(tmp_path / "torus.off", mesh)
+    words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
+    assert cli.main(["balls", source, str(tmp_path / "a.json"), *words]) == cli.DONE
+    found = medial_axis.cover_by_balls(*mesh, count=6, mode="around", sampling="vertices")
+    ours = medial_axis.write_balls(found, tmp_path / "b.json")
+    assert (tmp_path / "a.json").read_bytes() == ours.read_bytes()
+    large = (2 * np.asarray(mesh[0]), mesh[1])
+    twice = medial_axis.cover_by_balls(*large, count=6, mode="around", sampling="vertices")
+    assert (twice.balls.radii == 2 * found.balls.radii).all()

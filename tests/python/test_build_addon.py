@@ -339,23 +339,30 @@ def test_real_versions_agree():
 
 
 class CompilingError(Exception):
-    """A command has come to its compiling, of these targets; what follows is left out."""
+    """A command has come to its compiling for Python; what follows is left out."""
 
 
 @pytest.fixture
 def configured(tmp_path, monkeypatch):
-    """A function that runs a command of build_addon.py in one build folder, up to the compiling of some targets."""
+    """A function that runs a command of build_addon.py in one build folder, up to its compiling: the targets of it."""
+    wanted = []
 
     def configure(preset, *definitions, targets=()):
         words = ["cmake", "--preset", preset, "-B", tmp_path, *definitions]
         subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
-        raise CompilingError(targets)
+        words = ["cmake", "--build", tmp_path, "--target", "help"]
+        there = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+        assert set(targets) <= {line.partition(":")[0] for line in there.splitlines()}
+        wanted.extend(targets)
+        if "-DMEDIAL_PYTHON=ON" in definitions:
+            raise CompilingError
 
     def of(*words):
+        wanted.clear()
         arguments = build_addon.parse(words)
-        with pytest.raises(CompilingError) as found:
+        with pytest.raises(CompilingError):
             arguments.action(arguments)
-        return set(found.value.args[0])
+        return set(wanted)
 
     python = sys.executable, "cpython-311-x86_64-linux-gnu"
     monkeypatch.setattr(needs, "is_installed", lambda package: True)
@@ -366,19 +373,33 @@ def configured(tmp_path, monkeypatch):
     return of
 
 
-@pytest.mark.parametrize(
-    ("command", "needed"), [("bench", "bare_triangulation"), ("race", "_medial_study")]
-)
-def test_a_command_compiles_what_it_needs_whatever_ran_before(
-    command, needed, configured, tmp_path
-):
-    """CMake remembers what the command before defined."""
-    configured("build", "--local")
-    wanted = configured(command)
-    words = ["cmake", "--build", tmp_path, "--target", "help"]
-    there = subprocess.run(words, check=True, capture_output=True, text=True).stdout
-    names = {line.partition(":")[0] for line in there.splitlines()}
-    assert needed in wanted and wanted <= names
+# What each command that compiles asks of the build; the native tests are among all targets.
+COMPILED = {
+    ("build", "--local"): {"_medial"},
+    ("demo",): {"medial", "_medial"},
+    ("test", "--only", "build"): set(),
+    ("bench",): {"_medial", "bare_triangulation"},
+    ("race",): {"_medial", "_medial_study"},
+}
+
+
+def all_pairs(things):
+    """A walk that steps from each thing to each, also to itself, once: of Hierholzer (1873)."""
+    left, walk, stack = {one: list(things) for one in things}, [], [things[0]]
+    while stack:
+        if left[stack[-1]]:
+            stack.append(left[stack[-1]].pop())
+        else:
+            walk.append(stack.pop())
+    return walk
+
+
+def test_every_command_compiles_what_it_needs_after_every_other(configured):
+    """CMake remembers what the command before defined: bench once asked for a target that was not there."""
+    walk = all_pairs(list(COMPILED))
+    assert len(walk) == len(COMPILED) ** 2 + 1
+    for words in walk:
+        assert configured(*words) == COMPILED[words], words
 
 
 def test_presets_forget_what_a_command_defined():
