@@ -15,7 +15,7 @@ from ..bridge.rebuilt_object import (
     rebuilt_of,
     unrebuilt,
 )
-from ..bridge.step_back import are_back, step_back
+from ..bridge.step_back import are_back, seen, step_back
 from ..core.errors import MedialAxisError
 from .alone import Alone
 from .plain_words import told
@@ -59,9 +59,8 @@ class OBJECT_OT_medial_axis_rebuild(Alone, bpy.types.Operator):
             made = rebuild(_axis(context))
             bring_into_view_layer(context, made)
             back = self.alone or are_back(made)
-            step_back(made, False)  # what is hidden is not evaluated
-            context.view_layer.update()
-            found = measure(made, context.evaluated_depsgraph_get())
+            with seen([made]):
+                found = measure(made, context.evaluated_depsgraph_get())
             step_back(made, back)
             if self.alone and context.mode == "OBJECT":
                 made.select_set(True)
