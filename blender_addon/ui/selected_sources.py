@@ -70,7 +70,7 @@ def sources(context) -> list:
 
 
 def _chosen(context) -> list:
-    """What is selected or in edit mode, else what is seen of the active object: H hides and deselects a source."""
+    """All that is selected or in edit mode, else what is seen of the active object: H hides and deselects a source."""
     chosen = [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]
     active = getattr(context, "object", None)
     if chosen or active is None:

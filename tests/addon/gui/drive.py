@@ -151,7 +151,7 @@ def run_scene(blender, name: str, folder: Path) -> str:
 
 
 def problem_of(code: int, answer: Path, text: str) -> str:
-    """What went wrong in a scene that ended with an exit code and printed a text, or an empty string."""
+    """The problem of a scene that ended with an exit code and printed a text, or an empty string."""
     if not answer.exists():
         return f"no answer, exit code {code}"
     if problem := json.loads(answer.read_text(encoding="utf-8"))["problem"]:
