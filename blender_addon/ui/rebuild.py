@@ -142,12 +142,3 @@ def _draw_difference(layout, made):
         row = column.split(factor=0.6)
         row.label(text=say(label), translate=False)
         row.label(text=text, translate=False)
-
-
-CLASSES = (
-    OBJECT_OT_medial_axis_rebuild,
-    OBJECT_OT_medial_axis_others,
-    VIEW3D_PT_medial_axis_rebuild,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)
