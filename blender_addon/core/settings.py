@@ -223,7 +223,8 @@ class Settings(Options):
     detail: float = number(
         "Detail",
         "How much of what the samples show a curve keeps: at 1 everything; below, one after the other, loops of limbs "
-        "that touch, pinholes, and the branches that are no limbs are left out; at 0 a skeleton is left",
+        "that touch, pinholes, and the branches that are no limbs are left out; at 0 a skeleton is left. Grey where "
+        "the curve has none of these: a lower Shortest Limb brings more",
         default=1.0,
         limits=(0.0, 1.0),
     )

@@ -1,100 +1,73 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's user interface: properties, operators, panels, menus. No geometry."""
+"""Blender's user interface: properties, operators, panels, menus. No geometry.
+
+Each module here may have classes of Blender, all of which are registered; PROPERTIES of Blender's own types and ENTRIES
+of its menus; and `register` and `unregister` for the rest, such as handlers.
+"""
 
 from __future__ import annotations
 
+from importlib import import_module
 from types import ModuleType
 
+import bpy
+
+from .. import cli
 from ..core.machine import native
 
-
-def _modules() -> tuple[ModuleType, ...]:
-    from . import balls, hollow, mid_surface, rebuild, reduce
-    from .axis import (
-        auto_update,
-        compute_sequence,
-        convert_to_curve,
-        export_axis,
-        import_points,
-        inward_faces,
-        node_groups,
-        operators,
-        parts,
-        simplify_to_gap,
-    )
-    from .base import command, current_job, legend, manual, plain_words, show, translation
-    from .panels import menus, panels, settings_panels
-    from .settings import (
-        apply_later,
-        asset_library,
-        guide,
-        preferences,
-        presets,
-        properties,
-        self_test_operator,
-    )
-    from .skeleton import skeleton_operators, skeleton_panel
-    from .thickness import (
-        export_thickness,
-        thicken,
-        thickness_limits,
-        thickness_operators,
-        thickness_panel,
-        thickness_properties,
-    )
-
-    return (
-        translation,
-        apply_later,
-        properties,
-        thickness_properties,
-        self_test_operator,
-        asset_library,
-        plain_words,
-        preferences,
-        operators,
-        auto_update,
-        skeleton_operators,
-        thickness_limits,
-        thickness_operators,
-        thicken,
-        hollow,
-        export_axis,
-        export_thickness,
-        import_points,
-        inward_faces,
-        presets,
-        legend,
-        show,
-        guide,
-        panels,  # the panels in their order
-        parts,
-        skeleton_panel,
-        thickness_panel,
-        rebuild,
-        balls,
-        settings_panels,
-        compute_sequence,
-        reduce,
-        mid_surface,
-        convert_to_curve,
-        simplify_to_gap,
-        node_groups,
-        menus,
-        manual,
-        current_job,
-        command,
-    )
+# In the order of registration, which is that of the panels.
+# fmt: off
+_MODULES = (
+    "translation", "apply_later", "properties", "thickness_properties", "self_test_operator", "asset_library",
+    "plain_words", "preferences", "operators", "auto_update", "skeleton_operators", "thickness_limits",
+    "thickness_operators", "thicken", "hollow", "export_axis", "export_thickness", "import_points", "inward_faces",
+    "presets", "legend", "show", "guide", "panels", "parts", "skeleton_panel", "thickness_panel", "rebuild", "balls",
+    "settings_panels", "compute_sequence", "reduce", "mid_surface", "convert_to_curve", "simplify_to_gap",
+    "node_groups", "menus", "manual", "current_job",
+)
+# fmt: on
+_commands: list[object] = []  # of Blender's command line
 
 
 def register() -> None:
-    native.load_a_copy = not __package__.startswith(
-        "bl_ext."
-    )  # then the add-on is not an extension
-    for module in _modules():
-        module.register()
+    native.load_a_copy = not __package__.startswith("bl_ext.")  # then it is no extension
+    for module in map(_module, _MODULES):
+        for cls in _classes(module):
+            bpy.utils.register_class(cls)
+        for (owner, name), value in getattr(module, "PROPERTIES", {}).items():
+            setattr(owner, name, value)
+        for menu, entry in getattr(module, "ENTRIES", {}).items():
+            menu.append(entry)
+        if hasattr(module, "register"):
+            module.register()
+    if hasattr(bpy.utils, "register_cli_command"):  # from 4.2: `blender --command medial_axis`
+        _commands.append(bpy.utils.register_cli_command("medial_axis", cli.main))
 
 
 def unregister() -> None:
-    for module in reversed(_modules()):
-        module.unregister()
+    while _commands:
+        bpy.utils.unregister_cli_command(_commands.pop())
+    for module in map(_module, reversed(_MODULES)):
+        if hasattr(module, "unregister"):
+            module.unregister()
+        for menu, entry in getattr(module, "ENTRIES", {}).items():
+            menu.remove(entry)
+        for owner, name in getattr(module, "PROPERTIES", {}):
+            delattr(owner, name)
+        for cls in reversed(_classes(module)):
+            bpy.utils.unregister_class(cls)
+
+
+def _module(name: str) -> ModuleType:
+    return import_module(f".{name}", __package__)
+
+
+def _classes(module: ModuleType) -> list[type]:
+    """The classes that a module defines of Blender's kinds, in their order; bases of several are of none."""
+    return [
+        value
+        for value in vars(module).values()
+        if isinstance(value, type)
+        and issubclass(value, bpy.types.bpy_struct)
+        and value.__module__ == module.__name__
+    ]

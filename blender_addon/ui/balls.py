@@ -131,16 +131,6 @@ def _draw_figures(context, layout, thing):
         row.label(text=text, translate=False)
 
 
-CLASSES = (OBJECT_OT_medial_axis_balls, MedialAxisBallSettings, VIEW3D_PT_medial_axis_balls)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Scene.medial_axis_balls = bpy.props.PointerProperty(type=MedialAxisBallSettings)
-
-
-def unregister():
-    del bpy.types.Scene.medial_axis_balls
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+PROPERTIES = {
+    (bpy.types.Scene, "medial_axis_balls"): bpy.props.PointerProperty(type=MedialAxisBallSettings)
+}

@@ -62,8 +62,3 @@ class OBJECT_OT_medial_axis_hollow(
             f"Wall {found.wall:.4g}, nowhere thinner than {found.least:.4g}; "
             f"{share_text(found.volume / found.solid_volume)} of the volume is left"
         )
-
-
-CLASSES = (OBJECT_OT_medial_axis_hollow,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

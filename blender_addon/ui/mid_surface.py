@@ -56,8 +56,3 @@ class OBJECT_OT_medial_axis_unsolidify(
         same = high - low <= 1e-3 * high
         thick = f"{high:.4g}" if same else f"{low:.4g} to {high:.4g}"
         return f"{sheets}, {thick} thick, with {share_text(found.share)} of the volume"
-
-
-CLASSES = (OBJECT_OT_medial_axis_unsolidify,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -5,7 +5,7 @@ import bpy
 
 from ..bridge.axis.read_axis import find_axis
 from ..bridge.nodes.inputs import row_of
-from ..bridge.objects.step_back import are_back, step_back
+from ..bridge.objects.step_back import are_back, seen, step_back
 from ..bridge.rebuilt_object import (
     LARGEST,
     MEAN,
@@ -59,9 +59,8 @@ class OBJECT_OT_medial_axis_rebuild(Alone, bpy.types.Operator):
             made = rebuild(_axis(context))
             bring_into_view_layer(context, made)
             back = self.alone or are_back(made)
-            step_back(made, False)  # what is hidden is not evaluated
-            context.view_layer.update()
-            found = measure(made, context.evaluated_depsgraph_get())
+            with seen([made]):
+                found = measure(made, context.evaluated_depsgraph_get())
             step_back(made, back)
             if self.alone and context.mode == "OBJECT":
                 made.select_set(True)
@@ -143,12 +142,3 @@ def _draw_difference(layout, made):
         row = column.split(factor=0.6)
         row.label(text=say(label), translate=False)
         row.label(text=text, translate=False)
-
-
-CLASSES = (
-    OBJECT_OT_medial_axis_rebuild,
-    OBJECT_OT_medial_axis_others,
-    VIEW3D_PT_medial_axis_rebuild,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -115,8 +115,3 @@ def _reduced(whole, vertices, progress):
     axis = reduce_axis(whole.axis, vertices, progress)
     away = None if whole.shape is None else reduced_difference(axis, whole.shape)
     return _Reduced(axis, away, time.perf_counter() - start)
-
-
-CLASSES = (OBJECT_OT_medial_axis_reduce,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -194,21 +194,30 @@ def test_empty_result_leaves_an_older_one_untouched(capfd):
     assert any("no facet passes" in text for kind, text in reports(capfd) if kind == "Warning")
 
 
-def test_hidden_source_of_a_selected_result():
+@pytest.mark.parametrize("chosen", ["result", "source"])
+def test_a_source_hidden_by_h_is_read_as_it_was_seen(chosen):
+    """H hides and deselects; the source stays active, and buttons act on what is still shown of it."""
     source = ellipsoid()
     source.modifiers.new("Subdivision", "SUBSURF").levels = 1
     compute()
     result = result_of(source)
     points = result["ma_points"]
     source.hide_set(True)
-    bpy.context.view_layer.update()
-    result.hide_set(False)  # hidden with its source, and shown again by hand
-    select(result)
-    try:
-        compute()
-        assert result["ma_points"] == points
-    except RuntimeError as error:
-        assert "hidden" in str(error)
+    select(result) if chosen == "result" else select()
+    bpy.context.view_layer.objects.active = {"result": result, "source": source}[chosen]
+    for operator in (
+        "medial_axis_thickness",
+        "medial_axis_armature",
+        "medial_axis_sampling_report",
+    ):
+        assert getattr(bpy.ops.object, operator).poll(), operator
+    compute(select_result=False)
+    assert result["ma_points"] == points and "ma_source_state" in result
+    assert source.hide_get() and len(medial_objects()) == 1
+    result.hide_set(True)
+    select()
+    bpy.context.view_layer.objects.active = source
+    refuse("nothing is selected")
 
 
 @pytest.mark.parametrize(

@@ -322,7 +322,7 @@ def test_files_can_be_dropped_where_blender_takes_them():
         area = SimpleNamespace(type=space)
         assert made[0].poll_drop(SimpleNamespace(area=area)) == taken
     assert not made[0].poll_drop(SimpleNamespace(area=None))
-    registered = [cls for cls in module.CLASSES if cls not in module.OPERATORS]
+    registered = list(module.HANDLERS)
     assert len(registered) == (2 if hasattr(bpy.types, "FileHandler") else 0)
 
 

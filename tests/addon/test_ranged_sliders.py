@@ -17,11 +17,13 @@ def panel():
 
 def shown_row(name):
     """The property that the slider shows, and whether it is there to be moved."""
-    drawn = SimpleNamespace(enabled=True, prop=lambda _panel, name, slider: shown.append(name))
+    drawn = SimpleNamespace(
+        enabled=True, active=True, prop=lambda _panel, name, slider: shown.append(name)
+    )
     drawn.row, shown = lambda align: drawn, []
     result = addon("ui.settings.properties").shown_result(bpy.context)
     addon("ui.base.ranged_sliders").draw_slider(bpy.context, drawn, name, result)
-    return shown[0], drawn.enabled
+    return shown[0], drawn.enabled and drawn.active
 
 
 @pytest.fixture
@@ -64,6 +66,20 @@ def test_a_slider_at_its_end_says_that_little_is_left(result):
     assert not len(result.data.edges) and "points that views do not show" in panel().note
     panel().limb_share = 0.0
     assert panel().note == "" and len(result.data.edges) > 0
+
+
+def test_detail_is_grey_where_it_takes_nothing_away(result):
+    panel().form = "CURVE"
+    few = len(result.data.edges)
+    panel().detail = 0.0
+    assert len(result.data.edges) == few and shown_row("detail") == ("detail", False)
+    panel().limb_share, panel().detail = 0.0, 1.0
+    many = len(result.data.edges)
+    assert shown_row("detail") == ("detail", True) and result["ma_removals"] > 0
+    panel().detail = 0.0
+    assert len(result.data.edges) < many
+    panel().form = "CLEAN"
+    assert "ma_removals" not in result
 
 
 def test_keys_are_of_the_length(result):

@@ -92,6 +92,26 @@ def test_processes_share_scenes_and_leave_none_out(monkeypatch, tmp_path):
     assert drive.run_all(blender, tmp_path, ["scan"]) == 1 and run[-1] == "scan"
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Traceback (most recent call last):",
+        "rna_uiItemR: property not found: Scene.medial",  # Blender 3.4's words, and those of 5.2
+        "prop: property not found: Scene.medial",
+        "rna_uiItemO: operator missing srna 'object.medial'",
+        "uiItemM: menu 'VIEW3D_MT_medial' not found",
+    ],
+)
+def test_a_scene_fails_when_a_panel_could_not_be_drawn(line, tmp_path):
+    answer = tmp_path / "scene.json"
+    assert drive.problem_of(1, answer, "") == "no answer, exit code 1"
+    answer.write_text('{"problem": ""}')
+    assert drive.problem_of(1, answer, "Blender quit") == ""
+    assert drive.problem_of(11, answer, "Blender quit") == "exit code 11"
+    found = drive.problem_of(0, answer, f"Info: done\n{line}\nBlender quit")
+    assert found == f"it printed an error: {line}"
+
+
 ORACLES = """
 import pytest
 @pytest.mark.oracle

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them; and the gap that
-suggests a value of Simplify."""
+"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them; the gap that suggests a
+value of Simplify; and what Detail can leave out."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ RANGES = {
     "spike": "ma_spike_range",
     "limb": "ma_limb_range",
 }
+_REMOVALS = "ma_removals"  # how many loops and branches of a curve Detail can leave out
 _GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
 
 
@@ -32,16 +33,23 @@ def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
             result[key] = [*found.lengths, *found.shares]
         else:
             result.pop(key, None)
-    if axis.level is not None and axis.level.gap is not None:
-        result[_GAP] = axis.level.gap
-    else:
-        result.pop(_GAP, None)
+    for key, name in ((_GAP, "gap"), (_REMOVALS, "removals")):
+        value = getattr(axis.level, name, None)
+        if value is None:
+            result.pop(key, None)
+        else:
+            result[key] = value
 
 
 def gap_on(result: bpy.types.Object | None) -> float | None:
     """The value of Simplify between thin sheets and others; None where they have no clear gap."""
     found = None if result is None else result.get(_GAP)
     return found if isinstance(found, float) and 0.0 < found < 100.0 else None
+
+
+def detail_is_dead(result: bpy.types.Object | None) -> bool:
+    """Whether a curve has nothing that Detail could leave out."""
+    return result is not None and result.get(_REMOVALS) == 0
 
 
 def range_on(result: bpy.types.Object | None, name: str) -> SliderRange | None:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
 import bpy
 
 from .output_object import is_gone, source_of
@@ -28,3 +31,20 @@ def step_back(made: bpy.types.Object, back: bool) -> None:
     """Hide them in this view layer, or show them."""
     for thing in others_of(made):
         thing.hide_set(back)
+
+
+@contextmanager
+def seen(things: Iterable[bpy.types.Object]) -> Iterator[None]:
+    """Show objects, and those from which they were made, while these are read: Blender does not evaluate what is
+    hidden."""
+    layer = bpy.context.view_layer
+    wanted = {other for thing in things for other in (thing, *others_of(thing))}
+    hidden = [thing for thing in wanted if thing.name in layer.objects and thing.hide_get()]
+    try:
+        for thing in hidden:
+            thing.hide_set(False)
+        layer.update()
+        yield
+    finally:
+        for thing in hidden:
+            thing.hide_set(True)

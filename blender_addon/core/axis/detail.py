@@ -32,7 +32,7 @@ _SHARE = SkeletonSettings().share
 def with_detail(
     axis: MedialAxis, level: Any, hierarchy: Any, samples: AnalysedSamples, detail: float
 ) -> MedialAxis:
-    """Return a curve without some of its loops and branches.
+    """Return a curve without some of its loops and branches, which knows how many could go.
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ def with_detail(
     detail : float
         From 0, what a skeleton has, to 1, everything.
     """
-    if detail >= 1.0 or not len(axis.edges):
-        return axis
+    assert axis.level is not None
     removals = _removals(level, hierarchy, samples)
+    axis = replace(axis, level=replace(axis.level, removals=removals.count))
     done = _done(removals, detail)
     return _with_edges(axis, removals.after(done).astype(np.int32)) if done else axis
 

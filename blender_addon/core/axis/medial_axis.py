@@ -50,6 +50,8 @@ class LevelValues:
         The value of Simplify in a clear gap between thin sheets and others; None where there is none (`gap.py`).
     loops_left_out : int
         The number of loops that the samples show, and that a curve with less Detail does not have.
+    removals : int or None
+        How many loops and branches of a curve Detail can leave out; None where the axis is no curve.
     """
 
     exact: NDArray[np.float64]
@@ -63,6 +65,7 @@ class LevelValues:
     ranges: dict[str, SliderRange] = field(default_factory=dict)
     gap: float | None = None
     loops_left_out: int = 0
+    removals: int | None = None
 
     @property
     def is_crisp(self) -> NDArray[np.bool_]:

@@ -259,9 +259,8 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
         return {"CANCELLED"}
 
 
-def register():
-    bpy.utils.register_class(OBJECT_OT_medial_axis_auto_update)
-    bpy.types.Object.medial_axis_auto_update = bpy.props.BoolProperty(
+PROPERTIES = {
+    (bpy.types.Object, "medial_axis_auto_update"): bpy.props.BoolProperty(
         name="Auto Update",
         description="Compute this medial axis again whenever its source was edited and has rested for half a second",
         default=False,
@@ -269,6 +268,10 @@ def register():
         update=_switched,
         **IN_CONTEXT,
     )
+}
+
+
+def register():
     bpy.app.handlers.load_post.append(_after_load)
     if (
         not bpy.app.background
@@ -287,5 +290,3 @@ def unregister():
             bpy.app.timers.unregister(timer)
     _forget()
     _refused.clear()
-    del bpy.types.Object.medial_axis_auto_update
-    bpy.utils.unregister_class(OBJECT_OT_medial_axis_auto_update)

@@ -10,6 +10,7 @@ import bpy
 from ...bridge.objects.output_object import follow
 from ...bridge.objects.read_object import read_object
 from ...bridge.objects.source_state import remember_state, state_of
+from ...bridge.objects.step_back import seen
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task, run_task
 from ..base import current_job
@@ -142,9 +143,14 @@ class ComputeOperator(FromSelection, WatchedJob):
     def _read(self, context):
         """The sources that can be read, and what to compute of them; the others are reported."""
         context.scene.medial_axis.note = ""
+        things = self.sources(context)
+        with seen(things):
+            return self._read_seen(context, things)
+
+    def _read_seen(self, context, things):
         found, tasks = [], []
         depsgraph = context.evaluated_depsgraph_get()
-        for thing in self.sources(context):
+        for thing in things:
             try:
                 self.check_writable(thing)
                 shape = self.read(thing, depsgraph)

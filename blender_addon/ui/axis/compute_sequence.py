@@ -310,35 +310,18 @@ def menu_func_import(self, _context):
     )
 
 
-CLASSES = (
-    OBJECT_OT_medial_axis_sequence,
-    IMPORT_SCENE_OT_medial_axis_sequence,
-    VIEW3D_PT_medial_axis_sequence,
-)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.TOPBAR_MT_file_import.append(menu_func_import)
-    bpy.types.Scene.medial_axis_folder = StringProperty(
+PROPERTIES = {
+    (bpy.types.Scene, "medial_axis_folder"): StringProperty(
         name="Folder",
         description="Where the files of a sequence are written; // is the folder of the open file",
         subtype="DIR_PATH",
         default="//medial_axis/",
-    )
-    bpy.types.Scene.medial_axis_sequence_of = _of()
-    bpy.types.Scene.medial_axis_fast = BoolProperty(
+    ),
+    (bpy.types.Scene, "medial_axis_sequence_of"): _of(),
+    (bpy.types.Scene, "medial_axis_fast"): BoolProperty(
         name="Draft",
         description="Sample faces once at every frame, without exact places: quicker, and coarser at thin parts "
         "and edges",
-    )
-
-
-def unregister():
-    del bpy.types.Scene.medial_axis_sequence_of
-    del bpy.types.Scene.medial_axis_fast
-    del bpy.types.Scene.medial_axis_folder
-    bpy.types.TOPBAR_MT_file_import.remove(menu_func_import)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    ),
+}
+ENTRIES = {bpy.types.TOPBAR_MT_file_import: menu_func_import}

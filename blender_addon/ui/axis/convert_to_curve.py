@@ -38,8 +38,3 @@ class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
         bring_into_view_layer(context, made)
         select_made(context, [made])
         return {"FINISHED"}
-
-
-CLASSES = (OBJECT_OT_medial_axis_to_curve,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

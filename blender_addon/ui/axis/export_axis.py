@@ -132,16 +132,4 @@ def menu_func_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.operator(EXPORT_SCENE_OT_medial_axis.bl_idname, text=f"Medial Axis ({suffixes})")
 
 
-CLASSES = (EXPORT_SCENE_OT_medial_axis,)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.TOPBAR_MT_file_export.append(menu_func_export)
-
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_export.remove(menu_func_export)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+ENTRIES = {bpy.types.TOPBAR_MT_file_export: menu_func_export}

@@ -131,16 +131,8 @@ HANDLERS = (
     if hasattr(bpy.types, "FileHandler")
     else ()
 )
-CLASSES = (*OPERATORS, *HANDLERS)
 
 
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.TOPBAR_MT_file_import.append(menu_func_import)
+ENTRIES = {bpy.types.TOPBAR_MT_file_import: menu_func_import}
 
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_import.remove(menu_func_import)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(HANDLERS)

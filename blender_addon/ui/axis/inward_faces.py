@@ -69,8 +69,3 @@ def draw_inward_faces(layout, result):
     select.action = "SELECT"
     turn = row.operator("object.medial_axis_inward_faces", text="Turn Them", icon="NORMALS_FACE")
     turn.action = "TURN"
-
-
-CLASSES = (OBJECT_OT_medial_axis_inward_faces,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -62,16 +62,4 @@ def _entry(self, _context):
     self.layout.menu(VIEW3D_MT_medial_axis_nodes.bl_idname, icon="GEOMETRY_NODES")
 
 
-CLASSES = (OBJECT_OT_medial_axis_nodes, VIEW3D_MT_medial_axis_nodes)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.VIEW3D_MT_add.append(_entry)
-
-
-def unregister():
-    bpy.types.VIEW3D_MT_add.remove(_entry)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+ENTRIES = {bpy.types.VIEW3D_MT_add: _entry}

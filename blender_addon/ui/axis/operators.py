@@ -238,13 +238,3 @@ def _made_anew(thing):
     """The source of a surface that was reconstructed, as long as it exists; else the object itself."""
     source = source_of(thing) if is_surface(thing) else None
     return thing if is_gone(source) else source
-
-
-CLASSES = (
-    OBJECT_OT_medial_axis,
-    OBJECT_OT_medial_axis_sampling_report,
-    OBJECT_OT_tight_cocone_surface,
-    OBJECT_OT_medial_axis_cancel,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

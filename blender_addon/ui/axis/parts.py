@@ -121,12 +121,3 @@ class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
             row = column.split(factor=0.6)
             row.label(text=say(_LABELS[name]), translate=False)
             row.label(text=f"{count:,}", translate=False)
-
-
-CLASSES = (
-    OBJECT_OT_medial_axis_select_part,
-    OBJECT_OT_medial_axis_separate_parts,
-    VIEW3D_PT_medial_axis_parts,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -59,14 +59,23 @@ class Source:
 
 
 def sources(context) -> list:
-    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis, a report
-    of samples, a skeleton, an armature or balls, what it was made of."""
+    """The chosen objects that have a surface or points; instead of a medial axis, a report of samples, a skeleton, an
+    armature or balls, what it was made of."""
     found = []
-    for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
+    for thing in _chosen(context):
         source = source_of(thing) if _is_made(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(first_of_family(source))
     return list(dict.fromkeys(found))
+
+
+def _chosen(context) -> list:
+    """All that is selected or in edit mode, else what is seen of the active object: H hides and deselects a source."""
+    chosen = [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]
+    active = getattr(context, "object", None)
+    if chosen or active is None:
+        return chosen
+    return [thing for thing in _of(context, "visible_objects") if source_of(thing) == active][:1]
 
 
 def has_faces(thing) -> bool:
@@ -80,7 +89,7 @@ def obstacle(context) -> str:
         return reason
     if sources(context):
         return ""
-    chosen = _of(context, "selected_objects")
+    chosen = _chosen(context)
     if not chosen:
         return f"Select {_KINDS}; nothing is selected"
     thing = chosen[0]

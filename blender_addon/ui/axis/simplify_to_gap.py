@@ -33,6 +33,3 @@ class OBJECT_OT_medial_axis_simplify_to_gap(bpy.types.Operator):
     def execute(self, context):
         context.scene.medial_axis.simplify = gap_on(shown_result(context))
         return {"FINISHED"}
-
-
-register, unregister = bpy.utils.register_classes_factory((OBJECT_OT_medial_axis_simplify_to_gap,))

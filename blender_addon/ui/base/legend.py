@@ -120,10 +120,6 @@ def _encoded(linear):
     return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
 
 
-def register():
-    pass
-
-
 def unregister():
     global _icons
     if _icons is not None:

@@ -125,7 +125,3 @@ _WIDTH, _PIXELS = (
     65,
     450,
 )  # of the window that the question mark opens, in letters and on the screen
-
-CLASSES = (WM_OT_medial_axis_more,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -9,7 +9,7 @@ import inspect
 
 import bpy
 
-from ...bridge.axis.slider_ranges import RANGES, range_on
+from ...bridge.axis.slider_ranges import RANGES, detail_is_dead, range_on
 from ...core.settings import OPTIONS
 from .tab import draw_setting
 from .translation import IN_CONTEXT
@@ -41,6 +41,7 @@ def draw_slider(context, row, name, result):
     """Draw a slider: its share, its length where that has keys, or the option itself where it has no shares."""
     panel = context.scene.medial_axis
     if name not in RANGES or _is_animated(context.scene, name):
+        row.active = name != "detail" or not detail_is_dead(result)
         draw_setting(row, panel, name, slider=True)
         return
     part = row.row(align=True)

@@ -51,15 +51,5 @@ class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (VIEW3D_OT_medial_axis_show_colours,)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
 def unregister():
     _before.clear()
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

@@ -75,17 +75,4 @@ def _entry(self, _context):
     self.layout.menu(VIEW3D_MT_medial_axis.bl_idname, icon="OUTLINER_DATA_MESH")
 
 
-def _menus():
-    return (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu)
-
-
-def register():
-    bpy.utils.register_class(VIEW3D_MT_medial_axis)
-    for menu in _menus():
-        menu.append(_entry)
-
-
-def unregister():
-    for menu in _menus():
-        menu.remove(_entry)
-    bpy.utils.unregister_class(VIEW3D_MT_medial_axis)
+ENTRIES = {bpy.types.VIEW3D_MT_object: _entry, bpy.types.VIEW3D_MT_object_context_menu: _entry}

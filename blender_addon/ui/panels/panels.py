@@ -196,13 +196,3 @@ def _draw_progress(context, layout, job):
         bar = context.window_manager.medial_axis_progress
         row.prop(bar, "percentage", text=doing(job.stage), slider=True)
     whole.operator("object.medial_axis_cancel", text="", icon="CANCEL")
-
-
-CLASSES = (
-    VIEW3D_PT_medial_axis,
-    VIEW3D_PT_medial_axis_result,
-    VIEW3D_PT_medial_axis_details,
-    VIEW3D_PT_medial_axis_surface,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

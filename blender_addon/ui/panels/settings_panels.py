@@ -87,14 +87,3 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):
             column.prop(*width, text="Wire Width")
-
-
-CLASSES = (
-    VIEW3D_PT_medial_axis_settings,
-    VIEW3D_PT_medial_axis_form,
-    VIEW3D_PT_medial_axis_sampling,
-    VIEW3D_PT_medial_axis_method,
-    VIEW3D_PT_medial_axis_show,
-)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

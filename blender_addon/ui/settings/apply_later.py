@@ -138,14 +138,9 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
             return str(error)
 
 
-def register():
-    bpy.utils.register_class(OBJECT_OT_medial_axis_apply)
-
-
 def unregister():
     global _wanted, _running
     _wanted, _running = None, False
     _applied.clear()
     if bpy.app.timers.is_registered(_begin):
         bpy.app.timers.unregister(_begin)
-    bpy.utils.unregister_class(OBJECT_OT_medial_axis_apply)

@@ -69,16 +69,6 @@ class WM_OT_medial_axis_asset_library(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (WM_OT_medial_axis_asset_library,)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
 def unregister():
     if library() is not None:
         _remove()
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

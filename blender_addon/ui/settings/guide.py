@@ -77,21 +77,9 @@ class WM_OT_medial_axis_why(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (WM_OT_medial_axis_tutorial, WM_OT_medial_axis_why)
-
-
 def _help(self, _context):
     self.layout.separator()
     self.layout.operator("wm.medial_axis_tutorial", icon="HELP")
 
 
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.TOPBAR_MT_help.append(_help)
-
-
-def unregister():
-    bpy.types.TOPBAR_MT_help.remove(_help)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+ENTRIES = {bpy.types.TOPBAR_MT_help: _help}

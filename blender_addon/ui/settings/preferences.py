@@ -125,8 +125,3 @@ class WM_OT_medial_axis_free_memory(bpy.types.Operator):
         CACHE.clear()
         self.report({"INFO"}, say(f"{size / MEGABYTE:,.0f} MB were freed"))
         return {"FINISHED"}
-
-
-CLASSES = (MedialAxisPreferences, WM_OT_medial_axis_free_memory)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -34,8 +34,3 @@ class SCENE_OT_medial_axis_preset_add(AddPresetBase, bpy.types.Operator):
     preset_subdir = _FOLDER
     preset_defines = ()
     preset_values = tuple(f"bpy.context.scene.medial_axis.{name}" for name in OPTIONS)
-
-
-CLASSES = (VIEW3D_PT_medial_axis_presets, SCENE_OT_medial_axis_preset_add)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

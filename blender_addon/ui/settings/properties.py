@@ -339,21 +339,13 @@ class MedialAxisProgress(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (MedialAxisPanelSettings, MedialAxisProgress)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Scene.medial_axis = PointerProperty(type=MedialAxisPanelSettings)
-    bpy.types.WindowManager.medial_axis_progress = PointerProperty(type=MedialAxisProgress)
+PROPERTIES = {
+    (bpy.types.Scene, "medial_axis"): PointerProperty(type=MedialAxisPanelSettings),
+    (bpy.types.WindowManager, "medial_axis_progress"): PointerProperty(type=MedialAxisProgress),
+}
 
 
 def unregister():
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
         if _after_undo in handlers:
             handlers.remove(_after_undo)
-    del bpy.types.WindowManager.medial_axis_progress
-    del bpy.types.Scene.medial_axis
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

@@ -31,11 +31,3 @@ class WM_OT_medial_axis_self_test(bpy.types.Operator):
             self.report({"ERROR"}, "\n".join(failed))
             return {"CANCELLED"}
         return {"FINISHED"}
-
-
-def register():
-    bpy.utils.register_class(WM_OT_medial_axis_self_test)
-
-
-def unregister():
-    bpy.utils.unregister_class(WM_OT_medial_axis_self_test)

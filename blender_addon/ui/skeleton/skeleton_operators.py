@@ -257,22 +257,8 @@ class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.typ
     """The settings of the panel of skeletons."""
 
 
-CLASSES = (
-    OBJECT_OT_medial_axis_skeleton,
-    OBJECT_OT_medial_axis_armature,
-    MedialAxisSkeletonSettings,
-)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Scene.medial_axis_skeleton = bpy.props.PointerProperty(
+PROPERTIES = {
+    (bpy.types.Scene, "medial_axis_skeleton"): bpy.props.PointerProperty(
         type=MedialAxisSkeletonSettings
     )
-
-
-def unregister():
-    del bpy.types.Scene.medial_axis_skeleton
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+}

@@ -59,8 +59,3 @@ def _draw_figures(context, layout, thing):
         row.label(text=f"{number:,}", translate=False)
     for warning in thing.get(output_object.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
-
-
-CLASSES = (VIEW3D_PT_medial_axis_skeleton,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

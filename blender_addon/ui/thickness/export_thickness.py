@@ -123,8 +123,3 @@ def _unit(context):
     """The unit of Blender's coordinates, "" where the scene has none."""
     units = context.scene.unit_settings
     return _METRIC.get(round(units.scale_length, 9), "") if units.system == "METRIC" else ""
-
-
-CLASSES = (EXPORT_SCENE_OT_medial_axis_thickness,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

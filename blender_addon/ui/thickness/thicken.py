@@ -137,8 +137,3 @@ class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.O
         if found.left.told:
             text += f"; {share_text(found.left.share)} of the area is still thinner than {self.limit:.4g}"
         return text
-
-
-CLASSES = (OBJECT_OT_medial_axis_thicken,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

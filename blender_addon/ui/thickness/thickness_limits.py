@@ -56,8 +56,3 @@ def _metres(context):
     """How long Blender's unit is."""
     units = context.scene.unit_settings
     return 1.0 if units.system == "NONE" else units.scale_length
-
-
-CLASSES = (SCENE_OT_medial_axis_thickness_limit, VIEW3D_MT_medial_axis_thickness_limits)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -157,8 +157,3 @@ def _selected_on(context, carrier):
     source = source_of(carrier) if is_copy(carrier) else carrier
     on_source = active == source and not is_gone(source) and source.type == "MESH"
     return source if on_source and has_attribute(source.data, THIN) else carrier
-
-
-CLASSES = (OBJECT_OT_medial_axis_thickness, OBJECT_OT_medial_axis_thin_place)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -136,8 +136,3 @@ def _area(context, area):
     return bpy.utils.units.to_string(
         units.system, "AREA", area * units.scale_length**2, precision=3
     )
-
-
-CLASSES = (VIEW3D_PT_medial_axis_thickness,)
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -55,13 +55,8 @@ class MedialAxisThicknessSettings(bpy.types.PropertyGroup):
     note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 
-def register():
-    bpy.utils.register_class(MedialAxisThicknessSettings)
-    bpy.types.Scene.medial_axis_thickness = bpy.props.PointerProperty(
+PROPERTIES = {
+    (bpy.types.Scene, "medial_axis_thickness"): bpy.props.PointerProperty(
         type=MedialAxisThicknessSettings
     )
-
-
-def unregister():
-    del bpy.types.Scene.medial_axis_thickness
-    bpy.utils.unregister_class(MedialAxisThicknessSettings)
+}

@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +20,10 @@ SIZES = {
     "first_glance": (1280, 720),
     "first_glance_large": (1920, 1080),
 }  # of other scenes
+# Blender goes on after these: Python failed, or a panel names a property, an operator or a menu that is not there.
+_ERROR = re.compile(
+    r"Traceback|property not found|operator missing|unknown operator|menu.* not found"
+)
 LIMIT = 240  # seconds for one scene, start of Blender included, on a machine that is not overloaded
 
 SCENES = {  # name -> whether the compiled module is installed
@@ -141,12 +146,17 @@ def run_scene(blender, name: str, folder: Path) -> str:
             window.wait()
             return f"no end after {limit:.0f} s; see {log}"
     text = log.read_text(encoding="utf-8", errors="replace")
-    if not answer.exists():
-        return f"no answer, exit code {code}:\n{text[-3000:]}"
-    problem = json.loads(answer.read_text(encoding="utf-8"))["problem"]
-    # Blender's own exit code is 1 after Escape was pressed; a failed assertion is in the answer.
-    if not problem and code not in (0, 1):
-        problem = f"exit code {code}"
-    if not problem and "Traceback" in text:
-        problem = "a traceback was printed"
+    problem = problem_of(code, answer, text)
     return f"{problem}\n{text[-3000:]}" if problem else ""
+
+
+def problem_of(code: int, answer: Path, text: str) -> str:
+    """The problem of a scene that ended with an exit code and printed a text, or an empty string."""
+    if not answer.exists():
+        return f"no answer, exit code {code}"
+    if problem := json.loads(answer.read_text(encoding="utf-8"))["problem"]:
+        return problem
+    if code not in (0, 1):  # Blender's own is 1 after Escape was pressed
+        return f"exit code {code}"
+    lines = (line for line in text.splitlines() if _ERROR.search(line))
+    return next((f"it printed an error: {line}" for line in lines), "")
