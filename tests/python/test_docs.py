@@ -237,6 +237,7 @@ STAGES = (
     "stage_thickness",
     "stage_balls",
     "stage_small_mesh",
+    "stage_mid_surface",
 )
 HEADINGS = ["What", "Code", "Options", "Quality", "Cost", "Source"]
 
