@@ -20,7 +20,7 @@ from medial_axis.core.mid_surface.quad_pairs import least_sines
 from medial_axis.core.mid_surface.sheet_faces import SheetFaces
 from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.shape import Shape
-from support import mid_surfaces, topology
+from support import distance, mid_surfaces, reference, topology
 from support.meshes import write_off
 from support.thick_meshes import block, lathe
 from support.thin_solids import turned, union
@@ -429,6 +429,26 @@ def test_the_middle_of_a_pipe_is_round(around, low, high, wall, length):
     across = wall * length / slant
     assert np.average(found.thickness) == pytest.approx(across, rel=0.03)
     assert 0.95 < found.share < 1.05 and np.ptp(found.vertices[:, 2]) > 0.95 * length
+
+
+def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():
+    """They were four times as many, as close as the whole axis needs, and the sheet took 20 s."""
+    found = sheets_of(pipe(24, 5.0, 5.0, 0.8, 60.0), Settings())
+    assert len(found.chosen.samples.points) < 20_000 and not found.warnings
+    assert areas(found).sum() == pytest.approx(2 * np.pi * 4.6 * 60, rel=0.005)
+    np.testing.assert_allclose(found.thickness, 0.8, rtol=0.002)
+
+
+@pytest.mark.parametrize("around, low, wall", [(32, 0.7, 0.05), (48, 0.6, 0.035)])
+def test_the_sheets_of_a_pot_stay_in_it(around, low, wall):
+    """Its rim left it by a tenth of the wall; what is left is how far its smooth surface leaves its faces."""
+    profile = [(0, 0), (low, 0), (1, 1.2), (1 - wall, 1.2), (low - wall, wall), (0, wall)]
+    mesh = lathe(profile, around)
+    found = sheets_of(mesh, Settings())
+    outside = distance.to_triangles(found.vertices, mesh[0][mesh[1]])
+    outside[reference.winding_number(found.vertices, *mesh) > 0.5] = 0.0
+    assert found.sheets == 2 and outside.max() < 0.03 * wall
+    assert found.share == pytest.approx(1.0, abs=0.02)
 
 
 def test_a_pipe_as_thick_as_it_is_long_has_no_thin_wall():

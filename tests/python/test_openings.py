@@ -8,7 +8,9 @@ import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.axis.medial_axis import ON_CREASE
 from medial_axis.core.errors import DegenerateInputError
-from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom
+from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes, reference
 
 pytestmark = pytest.mark.oracle
@@ -216,3 +218,28 @@ def test_tunnels_of_real_meshes(data_file, name, most):
     found = compute_axis(read_shape(data_file(name))[0], Settings())
     pieces, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
     assert pieces == 1 and cavities == 0 and tunnels <= most
+
+
+def vessel(slope, bend, flare):
+    """An open pipe of radius 1, cut at slants at both ends, which may bend and become wider."""
+    along, round_ = np.linspace(0, 1, 50), 2 * np.pi * np.arange(24) / 24
+    radius = 1.0 + flare * along
+    flat = radius[:, None, None] * np.stack((np.cos(round_), np.sin(round_)), -1)
+    up = 16 * along[:, None] + slope * flat[:, :, 0] * (2 * along[:, None] - 1)
+    turn_ = bend * along[:, None] + 0 * up
+    at = np.stack((flat[:, :, 0] + 8 * turn_**2, flat[:, :, 1], up), -1).reshape(-1, 3)
+    i = np.arange(at.shape[0]).reshape(50, 24)
+    a, b, c, d = i[:-1], np.roll(i[:-1], -1, 1), np.roll(i[1:], -1, 1), i[1:]
+    faces = np.concatenate((np.stack((a, b, c), -1), np.stack((a, c, d), -1))).reshape(-1, 3)
+    return at, faces.astype(np.int32)
+
+
+@pytest.mark.parametrize(
+    "slope, bend, flare", [(1, 0, 0), (2, 0, 0.3), (1, -0.3, 0), (0.5, 0.2, 0.1)]
+)
+def test_no_limb_leads_into_the_corner_of_a_lid(slope, bend, flare):
+    """An opening at a slant meets the wall in a sharp edge: the limb led there, with radii of a fiftieth."""
+    found = compute_skeleton(Shape(*vessel(slope, bend, flare)), Settings(), SkeletonSettings())
+    assert len(found.curve.branches) == 1
+    assert found.curve.radius.min() > 0.85
+    assert np.ptp(found.curve.points[:, 2]) > 16 - 2 * (1 + slope) * (1 + flare)

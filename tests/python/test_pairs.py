@@ -236,6 +236,25 @@ def test_the_second_pass_in_pairs_is_denser_where_it_has_to_be(
     assert len(sites) == len(apart)
 
 
+def pipe(sides, wall):
+    """A pipe of radius 1 with flat ends."""
+    turn, i = 2 * np.pi * np.arange(sides) / sides, np.arange(sides)
+    rings = [(1.0, 0.0), (1.0, 12.0), (1.0 - wall, 12.0), (1.0 - wall, 0.0)]
+    points = [np.c_[r * np.cos(turn), r * np.sin(turn), np.full(sides, z)] for r, z in rings]
+    a, b = (np.arange(4)[:, None] * sides + k for k in (i, (i + 1) % sides))
+    c, d = np.roll(b, -1, axis=0), np.roll(a, -1, axis=0)
+    faces = np.concatenate((np.stack((a, b, c), -1), np.stack((a, c, d), -1)))
+    return np.concatenate(points), faces.reshape(-1, 3).astype(np.int32)
+
+
+@pytest.mark.parametrize("sides, wall", [(13, 0.05), (15, 0.04), (18, 0.02), (24, 0.01)])
+def test_a_thin_tube_of_few_flat_sides_takes_one_pass_in_pairs(sides, wall):
+    """Its smooth surface leaves its walls, and edges of its flat faces that had no samples made loops."""
+    found = library.compute(*pipe(sides, wall), side="inner")
+    assert tuple(found.axis.level.betti) == (1, 1, 0) and not found.warnings
+    assert len(found.chosen.samples.points) < 20_000
+
+
 def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):
     mesh = thin_solids.turned(thin_solids.union(((0, 0, 0), (1, 2, 0.7))))
     found = library.compute(*mesh, side="inner")

@@ -3,7 +3,8 @@
 
 In a blunt end of a limb the axis is a sheet, and the curve may run through any part of it: it stops short, or runs into
 a corner. The balls of the samples that the limb owns do not depend on that. They determine how far the limb reaches; it
-ends at the largest of the balls that reach farthest.
+ends at the largest of the balls that reach farthest. What lies beyond the last of them leads into the corner between an
+opening and the surface.
 """
 
 from __future__ import annotations
@@ -116,10 +117,13 @@ def _end(net: Net, tip: int, owner: NDArray[np.int64], balls: Balls) -> None:
     (name,) = net.at[tip]
     chain = net.branches[name]
     chain = chain if chain[-1] == tip else chain[::-1]
-    start = _start_of_end(net, chain)
-    rows = balls.of(net.held(chain[start + 1 :]))
-    if not len(rows):
+    last = next(
+        (at for at in range(len(chain))[:0:-1] if len(balls.of(net.held(chain[at : at + 1])))), 0
+    )
+    if not last:
         return
+    start = _start_of_end(net, chain[: last + 1])
+    rows = balls.of(net.held(chain[start + 1 :]))
     far = _reaches(balls, rows, net.points[chain[start]])
     as_far = rows[far >= far.max() - _AS_FAR * balls.radius[rows]]
     best = as_far[np.argmax(balls.radius[as_far])]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..machine import native
 from ..shape.nearness import nearest
 from .ends import Balls, balls_of
 from .spread import graph_of, spread
@@ -33,6 +34,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArra
         It is a row of the points. A sample whose ball is not connected to the skeleton gets the owner of the nearest
         sample that has one; if there is none, as on a ball, the nearest point.
     balls : Balls
+        Those that end at an opening of the surface are left out: they end where nothing of the solid does.
     """
     graph = graph_of(hierarchy.vertices, hierarchy.edges)
     rows = np.arange(len(level.vertices))
@@ -43,7 +45,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArra
     left = np.flatnonzero(owner < 0)
     if len(left):
         owner[left] = nearest(samples.points[left], level.vertices)
-    touched = np.flatnonzero(ball >= 0)
+    touched = np.flatnonzero((ball >= 0) & ~at_openings(samples, hierarchy)[ball])
     vertex = ball[touched]
     found = hierarchy.vertices[vertex], hierarchy.radius[vertex]
     return owner, balls_of(owner[touched], *found, touched, len(rows))
@@ -56,6 +58,16 @@ def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArr
     seeds = np.unique(edges[owner[edges] >= 0]).astype(np.int64)
     across, _ = spread(graph_of(samples.points, edges), seeds, owner[seeds])
     return np.where(owner >= 0, owner, across)
+
+
+def at_openings(samples: AnalysedSamples, hierarchy: Any) -> NDArray[np.bool_]:
+    """Return which vertices of the hierarchy, (v,), are balls that touch a sample which closes an opening."""
+    found = np.zeros(len(hierarchy.vertices), bool)
+    if samples.closing:
+        closing = samples.kinds == int(native.load().SampleKind.OPENING)
+        facets = closing[hierarchy.generators].any(axis=1)
+        found[hierarchy.facet_vertices[np.repeat(facets, np.diff(hierarchy.facet_offsets))]] = True
+    return found
 
 
 def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:

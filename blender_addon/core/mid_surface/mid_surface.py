@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from ..shape.shape import Shape
     from .thin_sheets import ThinSheets
 
+_HALF_OF_WALL = 1.0  # the feature size between parallel walls, in feature sizes
 _UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
 _STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
 _FLAT = 1e-3  # a mean normal that is shorter than 1 by less than this is that of a flat sheet
@@ -146,8 +147,10 @@ def mid_surface(
             "Expected faces that bound a solid, found points alone; reconstruct a surface first"
         )
     shape = outward_shape(shape)
+    # A sheet lies in the middle of its walls whatever the spacing, so no hole need be smaller than half of a wall.
     settings = replace(
         settings,
+        epsilon=_HALF_OF_WALL,
         form=Form.CLEAN,
         mesh=Mesh.VORONOI,
         crisp=True,

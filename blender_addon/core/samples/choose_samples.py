@@ -288,11 +288,14 @@ def _passes(request: Request, sides: Sides, first: FirstPass) -> tuple[AnalysedS
 
 
 def _in_pairs(
-    request: Request, sides: Sides, first: FirstPass, amount: dict[str, Any] | None, flat: bool
+    request: Request, sides: Sides, first: FirstPass, amount: dict[str, Any] | None, flat: float
 ) -> AnalysedSamples:
-    """One pass with pairs; without an amount it is as large as a first pass."""
-    smooth = request.settings.smooth and not flat
-    request = replace(request, settings=replace(request.settings, pairs=True, smooth=smooth))
+    """One pass with pairs, on flat faces with edges from an angle `flat`; without an amount it is as a first pass."""
+    settings = replace(request.settings, pairs=True)
+    if flat:
+        sharp = min(settings.sharp_angle, flat)
+        settings = replace(settings, smooth=False, sharp_angle=sharp)
+    request = replace(request, settings=settings)
     if amount is None:
         return _pass(request, sides, first.amount, 0.4, first.count)
     return _pass(request, sides, amount, 0.6, spacing=first.spacing)

@@ -8,6 +8,7 @@ in a way that samples of this surface cannot explain (`_medial.MedialAnalysis.do
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,8 @@ from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
 from ..shape.nearness import nearest
+from ..shape.sharp_angle import sharp_angle_of
+from ..shape.triangles import smooth_bends
 from .effort import EFFORT
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt
@@ -49,6 +52,9 @@ _BURIED, _FEW_BURIED = 0.01, 0.005
 _WORSE, _MANY, _STALLED = 10, 100, 2
 # A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
 _MORE = 1.05
+# Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid;
+# the least angle of the option is one degree.
+_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +138,7 @@ def overlaps(samples: AnalysedSamples) -> bool:
 def closed(
     request: Request,
     before: AnalysedSamples,
-    take: Callable[[dict[str, Any] | None, bool], AnalysedSamples],
+    take: Callable[[dict[str, Any] | None, float], AnalysedSamples],
 ) -> Closed | None:
     """Try samples in pairs, with smaller spacings where the topology is wrong, until it is that of the faces.
 
@@ -142,7 +148,8 @@ def closed(
     before : AnalysedSamples
         The samples without pairs.
     take : callable
-        Takes samples in pairs: of an amount, or of the size of a first pass for None; on the flat faces or not.
+        Takes samples in pairs: of an amount, or of the size of a first pass for None; on the flat faces, with edges
+        sharp from an angle on, or for 0 on the smooth surface.
 
     Returns
     -------
@@ -169,12 +176,12 @@ def _best(
     request: Request,
     start: Trial,
     close: bool,
-    take: Callable[[dict[str, Any] | None, bool], AnalysedSamples],
+    take: Callable[[dict[str, Any] | None, float], AnalysedSamples],
 ) -> tuple[Trial, int]:
     """Return the best trial, and the number of passes with pairs up to it; `close` samples without pairs are worst."""
     best, last, found, spent, stalled = start, start, 0, 0, 0
     amount: dict[str, Any] | None = None
-    flat = _is_flat(start.samples)
+    flat = _sharp_on_flat(request, start.samples)
     for number in range(1, _PASSES + 1):
         request.progress.begin_pass(number + 1)
         request.progress.begin_share(_OF_REST)
@@ -194,7 +201,7 @@ def _best(
         if stalled > _STALLED or _is_hopeless(trial, last, number):
             break
         last = trial
-        flat = flat or _is_flat(samples)
+        flat = flat or _sharp_on_flat(request, samples)
         amount = _finer(request, trial, number, left)
     request.progress.begin_pass(1)
     request.progress.begin_share(1.0)
@@ -310,7 +317,15 @@ def _is_worth_more(request: Request, samples: AnalysedSamples) -> bool:
     return not samples.density.dense_enough or are_close(samples)
 
 
-def _is_flat(samples: AnalysedSamples) -> bool:
-    """Whether samples belong on the flat faces: the smooth surface leaves close walls, or is flat everywhere."""
+def _sharp_on_flat(request: Request, samples: AnalysedSamples) -> float:
+    """Return from which angle edges are sharp if samples belong on the flat faces, and 0 on the smooth surface.
+
+    They belong there where the smooth surface is flat everywhere, or leaves close walls. Edges of the faces that it
+    leaves are then edges of the solid: samples that miss them tear the sheet between close walls.
+    """
     walls = samples.walls
-    return walls is not None and (walls.are_bulging or walls.are_flat)
+    if walls is None or not (walls.are_bulging or walls.are_flat):
+        return 0.0
+    sharp = sharp_angle_of(request.shape, request.settings)
+    bent = smooth_bends(request.shape, sharp)[walls.faces[walls.bulges]]
+    return max(float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, _LEAST_SHARP)

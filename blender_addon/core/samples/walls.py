@@ -97,12 +97,15 @@ class Walls(Places):
         return self.missed > _SOME
 
     @property
-    def are_bulging(self) -> bool:
-        """Whether the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
+    def bulges(self) -> NDArray[np.bool_]:
+        """(n,) where the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
         if self.bulge is None:
-            return False
-        away = self.bulge > _BULGING * np.minimum(self.distance, self.spacing)
-        return float(self.area[away].sum()) > _SOME * float(self.area.sum())
+            return np.zeros(len(self.area), bool)
+        return np.asarray(self.bulge > _BULGING * np.minimum(self.distance, self.spacing))
+
+    @property
+    def are_bulging(self) -> bool:
+        return float(self.area[self.bulges].sum()) > _SOME * float(self.area.sum())
 
     @property
     def are_flat(self) -> bool:

@@ -63,7 +63,7 @@ class Fitter {
       const double before = now;
       now = improve(solve(demands()), now);
       moved |= now < before;
-      if (!(now < 0.999 * before)) break;
+      if (!(now < 0.99 * before)) break;
     }
     return moved;
   }

@@ -17,7 +17,7 @@ namespace {
 
 // share of the extent; deeper places are not on the surface
 constexpr double kShareCovered = 0x1p-10;
-constexpr size_t kFitted = 1 << 16, kFittedPerSphere = 128;
+constexpr size_t kFitted = 1 << 14, kFittedPerSphere = 16;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
   SphereMesh result = mesh;
@@ -37,9 +37,10 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
       256);
 }
 
-// Thins the places evenly to as many as the fit of some spheres needs.
+// Thins the places evenly to as many as the fit of some spheres needs. Every second place lies on
+// the other side of a slab, so the step is odd.
 std::vector<TangentPlace> thinned(const std::vector<TangentPlace>& places, size_t spheres) {
-  const size_t step = std::max<size_t>(1, places.size() / (kFitted + kFittedPerSphere * spheres));
+  const size_t step = places.size() / (kFitted + kFittedPerSphere * spheres) | 1;
   std::vector<TangentPlace> result;
   for (size_t i = 0; i < places.size(); i += step) result.push_back(places[i]);
   return result;
