@@ -27,6 +27,7 @@ _COMMANDS = {
     "balls": "balls",
     "midsurface": "mid_surface",
     "hollow": "hollow",
+    "robot": "robot",
 }
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterable
+from typing import Any
 
 from .. import __version__
 from ..core.batch.batch import Work
 from ..core.batch.option_words import add_options
+from ..core.files.read_shape import read_shape
 from ..core.machine.memory_limit import MemoryLimit
 from ..core.settings import Division
 
@@ -32,6 +34,7 @@ def add_files(
     extensions: Iterable[str],
     usual: str,
     work_from: Callable[[argparse.Namespace], Work],
+    read: Callable[..., Any] = read_shape,
 ) -> argparse._ArgumentGroup:
     """Adds what all commands share, and says what files and work they have; returns the group of the files.
 
@@ -44,11 +47,14 @@ def add_files(
         The format of files in a folder, such as "ma".
     work_from : callable
         Returns the work that the arguments of a command line ask for.
+    read : callable
+        Reads a file with a memory limit; what is no shape has no connected parts.
     """
     known = tuple(extensions)
-    parser.set_defaults(known=known, work_from=work_from, page=None)
+    parser.set_defaults(known=known, work_from=work_from, page=None, read=read)
     add_options(parser.add_argument_group("memory"), MemoryLimit)
-    add_options(parser.add_argument_group("parts"), Division)
+    if read is read_shape:
+        add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(
