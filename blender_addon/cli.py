@@ -78,6 +78,7 @@ def _run(found: Iterable[Item], wanted: argparse.Namespace, console: Console) ->
             report = _done(item, wanted, page, console)
             thin |= bool(report.get("patches"))
             unknown |= report.get("share_unmeasured", 0.0) > UNKNOWN
+            code = INPUT if report.get("links_left") and code == DONE else code
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED

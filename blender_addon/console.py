@@ -103,8 +103,21 @@ def _length(value: float | None) -> str:
 def _ended(report: dict[str, Any]) -> str:
     if "verdict" in report:
         return report["verdict"]
+    if "links" in report:
+        return "\n  ".join([f"{len(report['links']):,} links", *map(_link, report["links"])])
     how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
     return f"{_said(report)}, {how}"
+
+
+def _link(link: dict[str, Any]) -> str:
+    """A row of the table of links."""
+    if link["problem"] or not link["count"]:
+        return f"{link['name']}: {link['problem'] or 'spheres, as it was'}"
+    shapes = link["shapes"][:-1] if link["count"] == 1 else link["shapes"]
+    return (
+        f"{link['name']}: {link['count']:,} {shapes}, volume {link['volume']:.4g}, "
+        f"farthest {link['farthest']:.4g}, {link['seconds']:.2f} s"
+    )
 
 
 def _said(report: dict[str, Any]) -> str:

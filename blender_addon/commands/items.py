@@ -18,7 +18,6 @@ from ..core.batch.outputs import Files
 from ..core.batch.parts import items_of_parts
 from ..core.errors import InvalidInputError
 from ..core.files.read import READERS
-from ..core.files.read_shape import read_shape
 
 
 def inside_blender() -> bool:
@@ -33,7 +32,10 @@ class UsageError(Exception):
 def check_outputs(wanted: argparse.Namespace) -> None:
     """Check all outputs that are known before Blender loads a file: none is an input, and no two are the same."""
     known = [
-        item for path in wanted.inputs if _is_file(path) for item in _items_of_file(path, wanted)
+        item
+        for path in wanted.inputs
+        if _is_file(path, wanted)
+        for item in _items_of_file(path, wanted)
     ]
     files = files_of(wanted, [*wanted.inputs, *(item.input for item in known)])
     try:
@@ -50,9 +52,10 @@ def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
     return Files(inputs, wanted.work.beside)
 
 
-def _is_file(path: str) -> bool:
+def _is_file(path: str, wanted: argparse.Namespace) -> bool:
     """Whether a path is read as a file, without Blender."""
-    return Path(path).suffix.lower() in READERS or not inside_blender()
+    own = not wanted.record.reads_shapes or Path(path).suffix.lower() in READERS
+    return own or not inside_blender()
 
 
 def items(wanted: argparse.Namespace) -> Iterator[Item]:
@@ -60,7 +63,7 @@ def items(wanted: argparse.Namespace) -> Iterator[Item]:
     if not wanted.inputs:
         yield from _items_of_blender(None, wanted)
     for path in wanted.inputs:
-        if _is_file(path):
+        if _is_file(path, wanted):
             yield from _items_of_file(path, wanted)
         else:
             yield from _items_of_blender(path, wanted)
@@ -85,7 +88,9 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
     stem = stem.rstrip("#").rstrip("_.-") or stem
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
-        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path, wanted.limit))
+        yield _item(
+            wanted.output, path, None, stem, frame, partial(wanted.record.read, path, wanted.limit)
+        )
 
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:

@@ -44,7 +44,8 @@ def parser_of(word: str, record: type[Product]) -> argparse.ArgumentParser:
 
 def _add_files(parser: argparse.ArgumentParser, record: type[Product]) -> None:
     add_options(parser.add_argument_group("memory"), MemoryLimit)
-    add_options(parser.add_argument_group("parts"), Division)
+    if record.reads_shapes:
+        add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(

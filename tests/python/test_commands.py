@@ -23,6 +23,9 @@ import build_addon
 
 pytestmark = pytest.mark.docs
 
+ROBOT = """<robot name="a"><link name="b"><collision><geometry><box size="4 1 1"/></geometry></collision></link>
+</robot>"""
+
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
     "python3",
@@ -133,9 +136,11 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
     words = shlex.split(command)
     words = words[words.index("medial_axis") + 1 :]
     inputs = [word for word in words if re.fullmatch(r"[\w#]+\.(ply|obj|xyz|stl)", word)]
-    for name in inputs[:-1] if words[-1] == inputs[-1] else inputs:
+    for name in inputs[:-1] if words[-1:] == inputs[-1:] else inputs:
         for frame in range(1, 6) if "#" in name else [0]:
             write(tmp_path / name.replace("####", f"{frame:04d}"))
+    if words[0] == "robot":
+        (tmp_path / words[1]).write_text(ROBOT)
     if any(name.endswith(".stl") for name in inputs) and words[0] != "hollow":
         words += ["--samples", "1000"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}

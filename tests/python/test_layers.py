@@ -32,6 +32,7 @@ MAY_IMPORT = {
     },
     "core/hollow": {*_ALL, "core/shape", "core/samples"},
     "core/cover": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
+    "core/robot": {*_ALL, "core/shape", "core/files", "core/cover"},
     "core/rebuild": {*_ALL, "core/shape", "core/samples", "core/axis"},
     "core/skeleton": {
         *(*_ALL, "core/shape", "core/samples", "core/curves", "core/axis", "core/files"),

@@ -66,7 +66,7 @@ class Item:
     frame : int or None
     output : Path
     read : callable
-        It returns the shape, and warnings.
+        It returns the shape, or a `RobotFile`, and warnings.
     part : int or None
         The number of the connected part of the shape, from 1, that this item is; None for the whole.
     """
@@ -129,7 +129,7 @@ def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT
     """
     check_name(item.output)
     given, warnings = item.read()
-    shape, _ = in_own_frame(given)
+    shape = in_own_frame(given)[0] if isinstance(given, Shape) else given
     begun = Begun(item, work, limit, shape, warnings, None)
     kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
     return (

@@ -19,12 +19,15 @@ if TYPE_CHECKING:
 
 
 def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    """Write a robot of one link, with a collision sphere for each ball; URDF measures in metres.
-
-    URDF has no capsules: each is a cylinder and two spheres.
-    """
+    """Write a robot of one link, with a collision sphere for each ball; URDF measures in metres."""
     quoted = _quoted(name)
     _write(stream, f'<?xml version="1.0"?>\n<robot name={quoted}>\n  <link name={quoted}>\n')
+    write_collisions(balls, stream)
+    _write(stream, "  </link>\n</robot>\n")
+
+
+def write_collisions(balls: Balls, stream: BinaryIO) -> None:
+    """Write a line for each ball, and one for the cylinder of each capsule, because URDF has no capsules."""
     sphere = (
         '    <collision><origin xyz="%.17g %.17g %.17g" rpy="0 0 0"/>'
         '<geometry><sphere radius="%.17g"/></geometry></collision>\n'
@@ -36,7 +39,6 @@ def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
     )
     ends, radii = _capsules(balls)
     write_rows(stream, cylinder, *_cylinders(ends), radii)
-    _write(stream, "  </link>\n</robot>\n")
 
 
 def write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:

@@ -109,16 +109,16 @@ def as_figures(balls: Balls) -> dict[str, str | float | None]:
 
 
 def _write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    _check_robot(balls)
+    check_robot(balls)
     write_urdf(balls, name, stream)
 
 
 def _write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    _check_robot(balls)
+    check_robot(balls)
     write_mjcf(balls, name, stream)
 
 
-def _check_robot(balls: Balls) -> None:
+def check_robot(balls: Balls) -> None:
     """Refuse what parsers of such files refuse, or read as something else."""
     if balls.is_tapered:
         raise ExportError(

@@ -50,7 +50,7 @@ OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), o
           the object or the file, {file} the file, #### the frame.
 
 Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help,
-medial_axis midsurface --help, medial_axis hollow --help
+medial_axis midsurface --help, medial_axis hollow --help, medial_axis robot --help
 
 examples:
   medial_axis bunny.ply bunny.ma

@@ -16,6 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..batch.option_words import add_options, add_sampling, as_words, sampling_from, settings_from
+from ..files.read_shape import read_shape
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings
@@ -30,6 +31,7 @@ PRODUCTS = {
     "balls": "balls",
     "midsurface": "mid_surface",
     "hollow": "hollow",
+    "robot": "robot",
 }
 
 
@@ -54,6 +56,7 @@ class Product:
     formats: ClassVar[Iterable[str]]  # extensions, such as ".ply"
     usual: ClassVar[str]  # the format of files in a folder, such as "ply"
     help: ClassVar[str]  # inputs, outputs and examples, after the options
+    reads_shapes: ClassVar[bool] = True  # what is no shape has no connected parts
     # The exit codes that mean other things than those of all products.
     codes: ClassVar[tuple[tuple[int, str], ...]] = ()
 
@@ -67,6 +70,11 @@ class Product:
     def from_words(cls, words: argparse.Namespace) -> Product:
         """Return the product that a parsed command line asks for; InvalidInputError where a number is wrong."""
         return cls(sampling_from(words), settings_from(words, cls.kind))
+
+    @staticmethod
+    def read(path: str, limit: MemoryLimit) -> tuple[Any, tuple[str, ...]]:
+        """Read a file; return the shape, or whatever the product reads, and warnings."""
+        return read_shape(path, limit)
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any:
         """Return a result with `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled."""

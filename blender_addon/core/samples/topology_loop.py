@@ -18,8 +18,7 @@ from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
 from ..shape.nearness import nearest
-from ..shape.sharp_angle import sharp_angle_of
-from ..shape.triangles import smooth_bends
+from ..shape.sharp_angle import sharp_angle_of, smooth_bends
 from .effort import EFFORT
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt

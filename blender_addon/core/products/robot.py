@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The record of robots whose links get balls or capsules as their collision geometry."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..batch.option_words import add_sampling, as_words, sampling_from
+from ..cover.ball_cover import Balls
+from ..errors import Cancelled, InvalidInputError, MedialAxisError, OutOfMemoryError
+from ..files.whole_file import write_whole
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..robot.link_shapes import LinkSettings, cover_link, error_of, volume_of
+from ..robot.robot_file import LinkGeometry, RobotFile, read_robot
+from ..settings import BallSettings, CoverMode, CoverShapes
+from ..shape.own_frame import in_own_frame
+from ..shape.shape import Shape
+from .product import Product
+
+_MOST = 64  # shapes of a link where only a tolerance is given
+
+
+@dataclass(frozen=True)
+class LinkCover:
+    """A link and its new shapes; None where it stays as it was, with the reason if that is a problem."""
+
+    link: LinkGeometry
+    balls: Balls | None
+    problem: str = ""
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class RobotCover:
+    """A robot with new shapes. `chosen` is None, because each link has samples of its own."""
+
+    robot: RobotFile
+    links: tuple[LinkCover, ...]
+    warnings: tuple[str, ...]
+    seconds: float
+    chosen: None = None
+
+
+@dataclass(frozen=True)
+class Robot(Product):
+    wanted: LinkSettings
+
+    description = "Robots whose links collide as few balls or capsules that hold them."
+    heading = "links"
+    formats = (".urdf",)
+    usual = "urdf"
+    codes = ((3, "an input, or a link of it, cannot be used"),)
+    reads_shapes = False
+    read = staticmethod(read_robot)
+    help = """\
+INPUT     .urdf, with boxes, cylinders, spheres, and meshes in .stl .obj .ply .off
+OUTPUT    .urdf: the same bytes, but other collision geometry; links of spheres alone stay. A capsule is a
+          cylinder and two spheres.
+
+examples:
+  medial_axis robot arm.urdf capsules.urdf
+  medial_axis robot arm.urdf balls.urdf --balls 16
+  medial_axis robot arm.urdf close.urdf --tolerance 0.005
+"""
+
+    @classmethod
+    def add_words(cls, parser: argparse.ArgumentParser) -> None:
+        links = parser.add_argument_group("links")
+        kinds = links.add_mutually_exclusive_group()
+        kinds.add_argument(
+            "--capsules",
+            type=int,
+            metavar="N",
+            help="at most N capsules for each link (default: 1)",
+        )
+        kinds.add_argument("--balls", type=int, metavar="N", help="at most N balls for each link")
+        links.add_argument(
+            "--tolerance",
+            type=float,
+            default=0.0,
+            metavar="LENGTH",
+            help="the first of 1, 2, 4, ... that reach out of the link by no more than this, or with --mode inside "
+            f"leave no place farther away; at most N, or {_MOST} where N is not given (default: 0, N)",
+        )
+        links.add_argument(
+            "--mode",
+            choices=[mode.name.lower() for mode in CoverMode],
+            default="around",
+            help="around: they hold the link; inside: they stay inside (default: around)",
+        )
+        add_sampling(parser.add_argument_group("method"))
+
+    @classmethod
+    def from_words(cls, words: argparse.Namespace) -> Robot:
+        if not 0.0 <= words.tolerance < math.inf:
+            raise ValueError(
+                f"Expected --tolerance as a finite length of at least 0, found {words.tolerance}"
+            )
+        given = words.capsules if words.balls is None else words.balls
+        usual = _MOST if words.tolerance > 0.0 else 1
+        balls = BallSettings(
+            count=usual if given is None else given,
+            shapes=CoverShapes.CAPSULES if words.balls is None else CoverShapes.BALLS,
+            mode=CoverMode[words.mode.upper()],
+        )
+        return cls(sampling_from(words), LinkSettings(balls, words.tolerance))
+
+    def compute(
+        self, robot: RobotFile, limit: MemoryLimit, progress: Progress | None
+    ) -> RobotCover:
+        start, progress = time.perf_counter(), progress or Progress()
+        covers = []
+        for row, link in enumerate(robot.links):
+            progress.begin_section(row / len(robot.links), (row + 1) / len(robot.links))
+            covers.append(self._cover(link, limit, progress))
+        warnings = [text for cover in covers for text in self._warnings(cover)]
+        seconds = time.perf_counter() - start
+        return RobotCover(robot, tuple(covers), tuple(warnings), seconds)
+
+    def _cover(self, link: LinkGeometry, limit: MemoryLimit, progress: Progress) -> LinkCover:
+        if link.problem or link.balls_only:
+            return LinkCover(link, None, link.problem)
+        start = time.perf_counter()
+        shape, _ = in_own_frame(Shape(link.points, link.triangles))
+        try:
+            found = cover_link(shape, self.settings, self.wanted, progress, limit)
+        except (Cancelled, OutOfMemoryError):
+            raise
+        except MedialAxisError as error:
+            return LinkCover(link, None, str(error))
+        balls = found.balls.moved(shape.frame[:3, 3])
+        return LinkCover(link, balls, "", time.perf_counter() - start)
+
+    def _warnings(self, cover: LinkCover) -> Iterator[str]:
+        name, most = cover.link.name, self.wanted.tolerance
+        if cover.problem:
+            yield f"the link '{name}' stays as it was: {cover.problem}"
+        elif cover.balls is not None and 0.0 < most < error_of(cover.balls):
+            yield (
+                f"the link '{name}' keeps within {error_of(cover.balls):.4g} only, with "
+                f"{cover.balls.words}; allow more of them"
+            )
+
+    def check(self, found: RobotCover) -> None:
+        """Raise InvalidInputError if no link could be used."""
+        if all(cover.problem for cover in found.links):
+            raise InvalidInputError(found.warnings[0])
+
+    def write(self, found: RobotCover, path: Path, _frame: np.ndarray) -> tuple[str, ...]:
+        shapes = {row: cover.balls for row, cover in enumerate(found.links) if cover.balls}
+        data = found.robot.with_shapes(shapes)
+        write_whole(path, lambda stream: stream.write(data))
+        return ()
+
+    def words(self) -> dict[str, Any]:
+        """Return the settings as words of the command line."""
+        balls = as_words(self.wanted.balls)
+        chosen = {name: balls[name] for name in ("count", "shapes", "mode")}
+        return {**as_words(self.settings), **chosen, "tolerance": self.wanted.tolerance}
+
+    def figures(self, found: RobotCover) -> dict[str, Any]:
+        return {
+            "links": [_figures(cover) for cover in found.links],
+            "links_left": [cover.link.name for cover in found.links if cover.problem],
+        }
+
+
+def _figures(cover: LinkCover) -> dict[str, Any]:
+    balls = cover.balls
+    return {
+        "name": cover.link.name,
+        "collisions": cover.link.pieces,
+        "count": 0 if balls is None else balls.count,
+        "shapes": "" if balls is None else "capsules" if len(balls.edges) else "balls",
+        "volume": None if balls is None else volume_of(balls),
+        "farthest": None if balls is None else error_of(balls),
+        "problem": cover.problem,
+        "seconds": round(cover.seconds, 3),
+    }
+
+
+RECORD = Robot

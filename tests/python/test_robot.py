@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`medial_axis robot`: links get capsules or balls that hold them, and everything else stays byte for byte."""
+
+import json
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.errors import ReadError
+from medial_axis.core.robot.primitive_meshes import ball_mesh, box_mesh, cylinder_mesh
+from medial_axis.core.robot.robot_file import read_robot
+from medial_axis.core.robot.xml_spans import elements_of
+from medial_axis.core.shape.shape import Shape
+from support.meshes import torus, write_off
+from support.thick_meshes import block
+
+ARM = """<?xml version="1.0" encoding="UTF-8"?>
+<!-- an arm of Grün & Söhne -->
+<robot name='arm "1"'>
+  <link name="base">
+    <visual><geometry><mesh filename="base.off"/></geometry></visual>
+    <collision name="base > hull"><!-- of a box -->
+      <origin xyz="0.1 0 -0.2" rpy="0.3 -0.4 1.2"/>
+      <geometry><box size="0.4 0.06 0.05"/></geometry>
+    </collision><!-- behind -->
+    <inertial><mass value="1e-1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="upper">\r
+    <collision>\r
+      <geometry><cylinder radius="0.05" length="0.6"/></geometry>\r
+    </collision>\r
+    <collision><origin xyz="0 0 0.3"/><geometry><sphere radius="0.08"/></geometry></collision>\r
+  </link>\r
+  <link name="hand"><collision><origin rpy="0 1.5707963267948966 0"/>
+    <geometry><mesh filename="package://arm_description/meshes/ring.off" scale="0.1 0.1 -0.2"/></geometry>
+  </collision></link>
+  <link name="tip"><collision><geometry><sphere radius="0.02"/></geometry></collision></link>
+  <link name="frame"/>
+  <joint name="j0" type="fixed"><parent link="base"/><child link="upper"/></joint>
+  <joint name="j1" type="fixed"><parent link="upper"/><child link="hand"/></joint>
+  <joint name="j2" type="fixed"><parent link="hand"/><child link="tip"/></joint>
+  <joint name="j3" type="fixed"><parent link="tip"/><child link="frame"/></joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def arm(tmp_path):
+    folder = tmp_path / "arm_description"
+    (folder / "meshes").mkdir(parents=True)
+    (folder / "urdf").mkdir()
+    write_off(folder / "meshes" / "ring.off", torus(1.0, 0.4, 48, 24))
+    write_off(folder / "urdf" / "base.off", block(0.4, 0.06, 0.05))
+    path = folder / "urdf" / "arm.urdf"
+    path.write_bytes(ARM.encode("utf-8"))
+    return path
+
+
+def run(*words):
+    return cli.main(["robot", *map(str, words), "--samples", "4000"])
+
+
+def numbers(element, name, usual):
+    return np.array(
+        [float(x) for x in (element.get(name) if element is not None else usual).split()]
+    )
+
+
+def turned(rpy):
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
+
+
+def away(link, places):
+    """How far places are from the spheres and cylinders of a link, by the meaning of URDF; negative inside."""
+    least = np.full(len(places), np.inf)
+    for item in link.iter("collision"):
+        origin = item.find("origin")
+        local = (places - numbers(origin, "xyz", "0 0 0")) @ turned(numbers(origin, "rpy", "0 0 0"))
+        if (sphere := item.find("geometry/sphere")) is not None:
+            gap = np.linalg.norm(local, axis=1) - float(sphere.get("radius"))
+        else:
+            cylinder = item.find("geometry/cylinder")
+            aside = np.linalg.norm(local[:, :2], axis=1) - float(cylinder.get("radius"))
+            gap = np.maximum(aside, np.abs(local[:, 2]) - float(cylinder.get("length")) / 2)
+        least = np.minimum(least, gap)
+    return least
+
+
+def on_surface(points, triangles, count=3000):
+    random = np.random.default_rng(0)
+    weights = random.dirichlet((1, 1, 1), count)
+    rows = random.integers(len(triangles), size=count)
+    return (weights[:, :, None] * points[triangles[rows]]).sum(axis=1)
+
+
+@pytest.mark.parametrize("words", [("--capsules", "1"), ("--balls", "12")])
+def test_every_link_is_held(arm, tmp_path, words, capsys):
+    out = tmp_path / "out.urdf"
+    assert run(arm, out, *words, "--json") == cli.DONE
+    report = json.loads(capsys.readouterr().out)
+    links = {link.get("name"): link for link in ElementTree.parse(out).getroot().iter("link")}
+    for geometry, told in zip(read_robot(arm)[0].links, report["links"], strict=True):
+        if geometry.name == "tip":
+            assert told["count"] == 0 and not told["problem"], "a sphere stays"
+            continue
+        assert 1 <= told["count"] <= int(words[1])
+        gap = away(links[geometry.name], on_surface(geometry.points, geometry.triangles))
+        assert gap.max() <= 1e-9 and told["farthest"] > 0.0 and told["volume"] > 0.0
+    assert report["links_left"] == []
+    if "--capsules" in words:  # the least capsule of the box that was found has this volume
+        assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)
+
+
+def test_everything_else_stays_byte_for_byte(arm, tmp_path):
+    out = tmp_path / "out.urdf"
+    assert run(arm, out, "--balls", 2) == cli.DONE
+    old, new = arm.read_bytes(), out.read_bytes()
+    pattern = rb"\s*<collision[^>]*>(?:(?!</collision>)[\s\S])*</collision>"
+    # The first collision of a link keeps its name, which holds a >, and the place on its line.
+    names = rb'<collision name="base > hull">', rb'<collision name="base &gt; hull">'
+    assert names[0] in old and names[1] in new
+    assert re.sub(pattern, b"", old.replace(names[0], b"<collision>")) == re.sub(
+        pattern, b"", new.replace(names[1], b"<collision>")
+    )
+    assert b'<collision><geometry><sphere radius="0.02"/></geometry></collision></link>' in new
+    assert new.count(b"\r\n") == 4 and b"-->\n    <inertial>" in new
+
+
+def test_a_tolerance_takes_as_few_as_it_needs(arm, tmp_path, capsys):
+    words = ("--tolerance", 0.1, "--balls", 16, "--json")
+    assert run(arm, tmp_path / "out.urdf", *words) == cli.DONE
+    base, upper, hand, _ = json.loads(capsys.readouterr().out)["links"]
+    assert max(link["farthest"] for link in (base, upper, hand)) <= 0.1
+    assert [link["count"] for link in (base, upper)] == [4, 4] and hand["count"] > 2
+    assert run(arm, tmp_path / "two.urdf", "--tolerance", 1e-4, "--balls", 2) == cli.DONE
+    said = capsys.readouterr()
+    assert "the link 'hand' keeps within" in said.err and "allow more of them" in said.err
+    assert "4 links\n  base: 2 balls, volume" in said.out
+    assert "tip: spheres, as it was" in said.out
+
+
+def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
+    (arm.parent.parent / "meshes" / "ring.off").unlink()
+    assert run(arm, tmp_path / "out.urdf") == cli.INPUT
+    assert (
+        "the link 'hand' stays as it was: Expected the file of 'package://"
+        in capsys.readouterr().err
+    )
+    assert b"ring.off" in (tmp_path / "out.urdf").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("<robot><link/></robot>", "Expected links with <collision>, found none"),
+        ("<mujoco/>", "found <mujoco>"),
+        ("<robot", "Expected XML, found"),
+        ("<robot xmlns:xacro='x'><xacro:arm/></robot>", "expand them with xacro"),
+        ("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>", "Expected no entities"),
+    ],
+)
+def test_what_is_no_robot_is_refused(tmp_path, text, said):
+    (tmp_path / "a.urdf").write_text(text)
+    with pytest.raises(ReadError, match=said):
+        read_robot(tmp_path / "a.urdf")
+
+
+@pytest.mark.parametrize(
+    "geometry, said",
+    [
+        ("<geometry/>", "Expected a shape in <geometry>"),
+        ("<geometry><cone/></geometry>", "found <cone>"),
+        ("<geometry><box size='1 1'/></geometry>", "Expected 3 numbers above 0 as size of <box>"),
+        ("<geometry><sphere radius='-1'/></geometry>", "Expected 1 number above 0 as radius"),
+        ("<geometry><mesh filename='a.dae'/></geometry>", "ends in"),
+    ],
+)
+def test_geometry_that_cannot_be_read_is_told(tmp_path, geometry, said):
+    text = f"<robot><link name='a'><collision>{geometry}</collision></link></robot>"
+    (tmp_path / "a.urdf").write_text(text)
+    (link,) = read_robot(tmp_path / "a.urdf")[0].links
+    assert said in link.problem
+    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf") == cli.INPUT
+    assert not (tmp_path / "b.urdf").exists()
+
+
+@pytest.mark.parametrize(
+    "words", [("--balls", "0"), ("--tolerance", "-1"), ("--balls", "2", "--capsules", "2")]
+)
+def test_wrong_usage(arm, tmp_path, words, capsys):
+    assert run(arm, tmp_path / "out.urdf", *words) == cli.USAGE
+    assert run(arm, tmp_path / "out.json") == cli.USAGE
+    assert run(arm, arm) == cli.USAGE
+    capsys.readouterr()
+
+
+def test_primitives_are_closed_and_hold_the_round_ones():
+    for mesh, volume in (
+        (box_mesh(np.array([1.0, 2.0, 3.0])), 6.0),
+        (cylinder_mesh(0.5, 2.0), 0.5 * np.pi),
+        (ball_mesh(0.5), np.pi / 6),
+    ):
+        shape = Shape(*mesh)
+        assert shape.open_edges == 0 and shape.solid_betti == (1, 0, 0)
+        assert volume * (1 - 1e-12) <= shape.volume < volume * 1.02
+
+
+def test_elements_know_their_bytes():
+    data = "<a x='>'><b/><c y=\"'>\" >ü</c ><d/></a>".encode()
+    root = elements_of(data)
+    assert [data[e.start : e.end].decode() for e in root.children] == [
+        "<b/>",
+        '<c y="\'>" >ü</c >',
+        "<d/>",
+    ]
+    assert (root.start, root.end) == (0, len(data))
+
+
+@pytest.mark.parametrize("parser", ["yourdfpy", "mujoco"])
+def test_parsers_of_robots_read_them(arm, tmp_path, parser):
+    module = pytest.importorskip(parser)
+    out = Path(arm).with_name("out.urdf")
+    assert run(arm, out) == cli.DONE
+    if parser == "mujoco":
+        model = module.MjModel.from_xml_path(str(out))
+        kinds = model.geom_type.tolist()
+        assert kinds.count(int(module.mjtGeom.mjGEOM_CYLINDER)) == 3
+        assert kinds.count(int(module.mjtGeom.mjGEOM_SPHERE)) == 7
+        return
+    robot = module.URDF.load(str(out), load_meshes=False).robot
+    assert [len(link.collisions) for link in robot.links] == [3, 3, 3, 1, 0]
