@@ -2,7 +2,7 @@
 """The vertices of a mesh among those that its modifiers leave.
 
 Modifiers may reorder vertices and faces without changing their number (Build, Sort Elements), so equal counts say
-nothing. An index that travels through the evaluation as an attribute tells which vertex became which.
+nothing. An index that travels through the evaluation as an attribute says which vertex became which.
 """
 
 from __future__ import annotations

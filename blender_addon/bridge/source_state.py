@@ -28,7 +28,7 @@ STATE = "ma_source_state"  # a hash of the shape
 SCALE = "ma_source_scale"  # scale, shear and mirror, 9 numbers
 
 _ROUNDING = 1e-5  # share of the scale that is lost where a matrix in float32 is turned
-_SELDOM = 20.0  # a check is repeated after so many times its own duration
+_SELDOM = 20.0  # a check is repeated after this many times its own duration
 _VALUES = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 _NO_SHAPE = {
     "name",

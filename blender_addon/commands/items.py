@@ -44,7 +44,7 @@ def check_outputs(wanted: argparse.Namespace) -> None:
 
 
 def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
-    """Return the files of a run, of which an output may have another one beside it."""
+    """Return the files of a run, of which an output may have another one next to it."""
     return Files(inputs, getattr(wanted, "keep_thick", False))
 
 

@@ -18,7 +18,7 @@ from .merging import merging_distance
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
-_MOST_BALLS = 4_000  # about so many balls are left
+_MOST_BALLS = 4_000  # about this many balls are left
 _BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 

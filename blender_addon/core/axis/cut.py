@@ -46,7 +46,7 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
 
 
 def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
-    """Drop the outer pieces that are smaller than so many diameters of their balls; the largest piece always stays.
+    """Drop the outer pieces that are smaller than this many diameters of their balls; the largest piece always stays.
 
     The diagonal of the bounding box of a piece counts, and the mean of the balls at its corners. Sheets of the outside
     reach many diameters far; a piece that does not is a remainder of one that the thresholds have not kept.

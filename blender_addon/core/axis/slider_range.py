@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _BEYOND = 1.02  # this multiple of the largest length takes away everything
-_STEPS = 256  # shares are told apart up to one of so many parts
+_STEPS = 256  # the number of parts into which a share is divided
 
 
 @dataclass(frozen=True)

@@ -102,7 +102,7 @@ def _of_parts_that_overlap(chosen: ChosenSamples) -> bool:
 
 
 def _of_points_alone(chosen: ChosenSamples) -> Iterator[str]:
-    """Warn about the surface by which points alone tell the inside."""
+    """Warn about the surface by which points alone determine the inside."""
     samples = chosen.samples
     if chosen.sides.source is SidesFrom.POLES:
         yield from pole_warnings(samples.analysis, samples.points)

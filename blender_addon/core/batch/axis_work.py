@@ -31,7 +31,7 @@ class AxisWork:
     triangles : bool
         Write triangles in text.
     vertices : int
-        An axis is reduced to at most so many vertices; 0 keeps all.
+        An axis is reduced to at most this many vertices; 0 keeps all.
     """
 
     settings: Settings

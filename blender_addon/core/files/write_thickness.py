@@ -31,7 +31,7 @@ from .whole_file import write_whole
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 16  # so many rows are formatted at once
+_CHUNK = 1 << 16  # this many rows are formatted at once
 
 
 def export_thickness(

@@ -61,7 +61,7 @@ def _check_corners(shape: Shape) -> None:
 
 
 def check_some_left(shape: Shape) -> None:
-    """Raise DegenerateInputError where every face counts for nothing, so none can tell what is inside."""
+    """Raise DegenerateInputError where every face counts for nothing, so none can decide what is inside."""
     if are_left_out(shape).all():
         raise DegenerateInputError(
             f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "

@@ -23,7 +23,7 @@ def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
     """Return a shape whose frame leads back from the centre of its box, and where this centre was.
 
     The shape stays where it is if its coordinates were rounded to float32: what that costs depends on their distance
-    from the origin (`Shape.rounding`), and the arithmetic in 64 bits loses nothing beside it.
+    from the origin (`Shape.rounding`), and the arithmetic in 64 bits loses nothing compared with it.
     """
     origin = own_origin(shape.points)
     if not origin.any():

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 SMOOTHING = 0.02  # of the whole work, as few faces are noisy
-# In spacings: with more noise faces fold over each other, and their normals tell nothing.
+# In spacings: with more noise faces fold over each other, and their normals say nothing.
 _TOO_MUCH = 1.0
 # With fewer triangles, details of a shape that was modelled coarse look like noise.
 _LEAST = 5_000
-# Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than so many times
+# Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than this many times
 # the median, which is at most 2.6 on scans, voxels and noisy meshes. Of designed plates with letters it is 25.
 _UNEVEN = 4.0
 _OF_CUBES = (

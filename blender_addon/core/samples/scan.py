@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 SOME = 0.1  # noise in spacings from which on the axis has flakes
-_TOO_MUCH = 2.5  # noise in spacings beyond which too few points tell the surface
+_TOO_MUCH = 2.5  # noise in spacings beyond which too few points show the surface
 _ALONE = (0.001, 0.1)  # the share of lone points that are outliers; fewer are the tips of a shape
 _FEWEST = 4  # of them
 _LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more
@@ -100,7 +100,7 @@ def prepared(
 ) -> tuple[Shape, Scan | None]:
     """Return a shape whose points lie on smooth surfaces, and the figures; the same shape where nothing is to be done.
 
-    Faces tell more than this measure, so a shape that has any is not measured.
+    Faces say more than this measure, so a shape that has any is not measured.
 
     Parameters
     ----------

@@ -235,7 +235,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
 
 
 def pole_warnings(analysis: Any, points: NDArray[np.float64]) -> Iterator[str]:
-    """Warn about suspicious properties of the solid that the poles tell.
+    """Warn about suspicious properties of the solid that the poles determine.
 
     It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
 

@@ -41,11 +41,11 @@ _OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
 _WIDE = 0.2
 # Walls that are missed on more than this share of the area are missed as a whole.
 _AS_A_WHOLE = 0.2
-# So large a share of the samples may be buried, for foils are too thin to tell; and while spacings become smaller.
+# So large a share of the samples may be buried, for foils are too thin to show it; and while spacings become smaller.
 _BURIED, _FEW_BURIED = 0.01, 0.005
 # Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
 # on the way, as where the spacings of both sides of a wall become small one after the other; but a pass that is no
-# better than the one before may be followed by no more than so many others of this kind.
+# better than the one before may be followed by no more than this many others of this kind.
 _WORSE, _MANY, _STALLED = 10, 100, 2
 # A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
 _MORE = 1.05
