@@ -99,7 +99,7 @@ def same_state(source: bpy.types.Object) -> Iterator[None]:
 
 
 def has_changed(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None) -> bool:
-    """Whether the source is known to have another state than when the output was made.
+    """Return whether the source is known to have another state than when the output was made.
 
     Panels may call it whenever they are drawn: for large meshes the answer is up to a few seconds old.
     """

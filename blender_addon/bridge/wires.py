@@ -78,7 +78,7 @@ def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
 
 
 def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str] | None:
-    """(owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
+    """Return (owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
     return row_of(modifier, _WIDTH) if has_inputs(modifier.node_group, _WIDTH) else None
 
 

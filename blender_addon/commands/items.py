@@ -22,7 +22,7 @@ from ..core.files.read_shape import read_shape
 
 
 def inside_blender() -> bool:
-    """Whether this Python is Blender's."""
+    """Return whether this Python is Blender's."""
     return "bpy" in sys.modules
 
 
@@ -49,7 +49,7 @@ def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
 
 
 def _is_file(path: str) -> bool:
-    """Whether a path is read as a file, without Blender."""
+    """Return whether a path is read as a file, without Blender."""
     return Path(path).suffix.lower() in READERS or not inside_blender()
 
 

@@ -134,7 +134,7 @@ AS_IN_PAPER = ("wrap_opening", "epsilon", "budget", "keep_vertices", "pairs")
 
 
 def applies_to_form(name: str, form: Form) -> bool:
-    """Whether an option changes anything for a Form."""
+    """Return whether an option changes anything for a Form."""
     if name in ("simplify", "erode", "spike", "mesh"):
         return form is Form.CLEAN
     if name == "detail":
@@ -147,7 +147,7 @@ def applies_to_form(name: str, form: Form) -> bool:
 def applies(
     name: str, sampling: SamplingMode, spacing: float, of_faces: tuple[str, ...] = ()
 ) -> bool:
-    """Whether an option of the sampling changes anything for a choice of Sampling and a Spacing.
+    """Return whether an option of the sampling changes anything for a choice of Sampling and a Spacing.
 
     `of_faces` are the options that matter for Vertices, too (`Settings.options_of_faces`).
     """

@@ -64,7 +64,7 @@ GROUPS = {
 
 
 def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
-    """Whether this is one of our groups, by whatever name."""
+    """Return whether this is one of our groups, by whatever name."""
     return tree is not None and tree.get(_BUILT_BY) == key
 
 

@@ -74,7 +74,7 @@ def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
 
 
 def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
-    """(f,) the areas of the facets of a hierarchy.
+    """Return the areas of the facets of a hierarchy, (f,).
 
     Those that are never shown, because they are no thicker than the spacing of the samples, have none.
     """

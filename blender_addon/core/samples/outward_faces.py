@@ -82,7 +82,7 @@ def reading_counts(shape: Shape) -> dict[str, int]:
 
 
 def are_left_out(shape: Shape) -> NDArray[np.bool_]:
-    """(m,) the triangles that count for nothing."""
+    """Return the triangles that count for nothing, (m,)."""
     if shape.reading is None:
         return np.zeros(len(shape.triangles), bool)
     return shape.reading >= REPEATED

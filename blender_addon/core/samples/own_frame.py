@@ -35,7 +35,7 @@ def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
 
 
 def own_origin(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3,) the centre of the box along each axis where it may be subtracted exactly, 0 along others.
+    """Return the centre of the box along each axis where it may be subtracted exactly, (3,), 0 along others.
 
     That is where all coordinates are within a factor of two (Sterbenz); elsewhere the box is no farther away than its
     size. It is 0 for coordinates that were rounded to float32, and for those that are not finite.

@@ -82,7 +82,7 @@ def smooth_faces(
 
 
 def _are_even(shape: Shape) -> bool:
-    """Whether the sides of the triangles are about equally long."""
+    """Return whether the sides of the triangles are about equally long."""
     corners = shape.points[shape.triangles]
     ways = corners - np.roll(corners, 1, axis=1)
     middle, long = np.quantile(np.sqrt(dot(ways, ways)), (0.5, 0.95))
@@ -110,7 +110,7 @@ def _of_size_one(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def _vertex_normals(
     points: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """(n, 3) sums of the areas of the faces round each vertex, along their normals."""
+    """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     area, corners = cross(b - a, c - a), triangles.ravel()
     sums = [np.bincount(corners, np.repeat(column, 3), len(points)) for column in area.T]

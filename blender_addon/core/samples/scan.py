@@ -147,7 +147,7 @@ def _scan(shape: Shape, measure: Any) -> Scan:
 
 
 def _wanted(wanted: Prepare, scan: Scan) -> tuple[bool, bool]:
-    """Whether to move the points, and whether to leave outliers out."""
+    """Return whether to move the points, and whether to leave outliers out."""
     if wanted is Prepare.OFF:
         return False, False
     enough = 0.0 if wanted is Prepare.ALWAYS else SOME
@@ -185,7 +185,7 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
 
 
 def is_noisy(scan: Scan | None) -> bool:
-    """Whether the noise of points is worse than their distances, so that more of them would not help."""
+    """Return whether the noise of points is worse than their distances, so that more of them would not help."""
     return scan is not None and scan.noise > SOME
 
 

@@ -107,7 +107,7 @@ class Closed:
 
 
 def closes(request: Request, sides: Sides) -> bool:
-    """Whether the loop may run: the choice was left to Automatic, and a level of closed faces is wanted."""
+    """Return whether the loop may run: the choice was left to Automatic, and a level of closed faces is wanted."""
     settings = request.settings
     return (
         settings.sampling is SamplingMode.AUTOMATIC
@@ -120,12 +120,12 @@ def closes(request: Request, sides: Sides) -> bool:
 
 
 def are_close(samples: AnalysedSamples) -> bool:
-    """Whether the axis is missing between walls that are close."""
+    """Return whether the axis is missing between walls that are close."""
     return not overlaps(samples) and samples.walls is not None and samples.walls.are_missed
 
 
 def overlaps(samples: AnalysedSamples) -> bool:
-    """Whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
+    """Return whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
     return samples.buried > _BURIED * len(samples.points)
 
 
@@ -202,7 +202,7 @@ def _best(
 
 
 def _is_hopeless(trial: Trial, last: Trial, number: int) -> bool:
-    """Whether smaller spacings do not help: parts overlap, or they made more differences."""
+    """Return whether smaller spacings do not help: parts overlap, or they made more differences."""
     overlap = trial.samples.buried > _FEW_BURIED * len(trial.samples.points)
     return overlap or (number > 2 and trial.differences > _WORSE * last.differences + _MANY)
 
@@ -289,12 +289,12 @@ def _finer(request: Request, trial: Trial, number: int, budget: int) -> dict[str
 
 
 def _are_missed_as_a_whole(samples: AnalysedSamples) -> bool:
-    """Whether so many walls are missed that doubts are everywhere and say nothing."""
+    """Return whether so many walls are missed that doubts are everywhere and say nothing."""
     return samples.walls is not None and samples.walls.missed > _AS_A_WHOLE
 
 
 def _wanted(trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
+    """Return (k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
     samples = trial.samples
     assert samples.apart is not None
     rows = nearest(trial.places, samples.points)
@@ -311,6 +311,6 @@ def _is_worth_more(request: Request, samples: AnalysedSamples) -> bool:
 
 
 def _is_flat(samples: AnalysedSamples) -> bool:
-    """Whether samples belong on the flat faces: the smooth surface leaves close walls, or is flat everywhere."""
+    """Return whether samples belong on the flat faces: the smooth surface leaves close walls, or is flat everywhere."""
     walls = samples.walls
     return walls is not None and (walls.are_bulging or walls.are_flat)
