@@ -22,7 +22,7 @@ from ..core.files.read_shape import read_shape
 
 
 def inside_blender() -> bool:
-    """Return whether this Python is Blender's."""
+    """Whether this Python is Blender's."""
     return "bpy" in sys.modules
 
 
@@ -44,12 +44,12 @@ def check_outputs(wanted: argparse.Namespace) -> None:
 
 
 def files_of(wanted: argparse.Namespace, inputs: Sequence[str]) -> Files:
-    """Return the files of a run, of which an output may have another one next to it."""
+    """Return the files of a run, of which an output may have another one beside it."""
     return Files(inputs, getattr(wanted, "keep_thick", False))
 
 
 def _is_file(path: str) -> bool:
-    """Return whether a path is read as a file, without Blender."""
+    """Whether a path is read as a file, without Blender."""
     return Path(path).suffix.lower() in READERS or not inside_blender()
 
 

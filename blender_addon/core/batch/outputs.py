@@ -57,7 +57,7 @@ class Files:
             self._written |= dict.fromkeys(_identities(path), path)
 
     def _written_with(self, output: Path) -> tuple[Path, ...]:
-        """Return an output, the report next to it, and what is written next to it in other files."""
+        """Return an output, the report next to it, and what is written beside it in other files."""
         tables = (output.with_suffix(".csv"),) if output.suffix.lower() == ".stl" else ()
         thick = (thick_path(output),) if self._keeps_thick else ()
         return output, report_path(output), *tables, *thick

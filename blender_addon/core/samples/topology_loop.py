@@ -41,11 +41,11 @@ _OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
 _WIDE = 0.2
 # Walls that are missed on more than this share of the area are missed as a whole.
 _AS_A_WHOLE = 0.2
-# So large a share of the samples may be buried, for foils are too thin to show it; and while spacings become smaller.
+# So large a share of the samples may be buried, for foils are too thin to tell; and while spacings become smaller.
 _BURIED, _FEW_BURIED = 0.01, 0.005
 # Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
 # on the way, as where the spacings of both sides of a wall become small one after the other; but a pass that is no
-# better than the one before may be followed by no more than this many others of this kind.
+# better than the one before may be followed by no more than so many others of this kind.
 _WORSE, _MANY, _STALLED = 10, 100, 2
 # A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
 _MORE = 1.05
@@ -107,7 +107,7 @@ class Closed:
 
 
 def closes(request: Request, sides: Sides) -> bool:
-    """Return whether the loop may run: the choice was left to Automatic, and a level of closed faces is wanted."""
+    """Whether the loop may run: the choice was left to Automatic, and a level of closed faces is wanted."""
     settings = request.settings
     return (
         settings.sampling is SamplingMode.AUTOMATIC
@@ -120,12 +120,12 @@ def closes(request: Request, sides: Sides) -> bool:
 
 
 def are_close(samples: AnalysedSamples) -> bool:
-    """Return whether the axis is missing between walls that are close."""
+    """Whether the axis is missing between walls that are close."""
     return not overlaps(samples) and samples.walls is not None and samples.walls.are_missed
 
 
 def overlaps(samples: AnalysedSamples) -> bool:
-    """Return whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
+    """Whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
     return samples.buried > _BURIED * len(samples.points)
 
 
@@ -202,7 +202,7 @@ def _best(
 
 
 def _is_hopeless(trial: Trial, last: Trial, number: int) -> bool:
-    """Return whether smaller spacings do not help: parts overlap, or they made more differences."""
+    """Whether smaller spacings do not help: parts overlap, or they made more differences."""
     overlap = trial.samples.buried > _FEW_BURIED * len(trial.samples.points)
     return overlap or (number > 2 and trial.differences > _WORSE * last.differences + _MANY)
 
@@ -289,12 +289,12 @@ def _finer(request: Request, trial: Trial, number: int, budget: int) -> dict[str
 
 
 def _are_missed_as_a_whole(samples: AnalysedSamples) -> bool:
-    """Return whether so many walls are missed that doubts are everywhere and say nothing."""
+    """Whether so many walls are missed that doubts are everywhere and say nothing."""
     return samples.walls is not None and samples.walls.missed > _AS_A_WHOLE
 
 
 def _wanted(trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
+    """(k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
     samples = trial.samples
     assert samples.apart is not None
     rows = nearest(trial.places, samples.points)
@@ -311,6 +311,6 @@ def _is_worth_more(request: Request, samples: AnalysedSamples) -> bool:
 
 
 def _is_flat(samples: AnalysedSamples) -> bool:
-    """Return whether samples belong on the flat faces: the smooth surface leaves close walls, or is flat everywhere."""
+    """Whether samples belong on the flat faces: the smooth surface leaves close walls, or is flat everywhere."""
     walls = samples.walls
     return walls is not None and (walls.are_bulging or walls.are_flat)

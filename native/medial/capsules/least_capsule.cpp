@@ -17,7 +17,7 @@ namespace medial {
 namespace {
 
 constexpr int kCoordinate = 2;       // directions to begin with have whole coordinates up to this
-constexpr int kCircleSteps = 64;     // the centre of a circle is off by about one part of this many
+constexpr int kCircleSteps = 64;     // the centre of a circle is off by about one part of so many
 constexpr double kNear = 1.0 / 256;  // of the radius: as near to the least as radii in a solid are
 constexpr int64_t kMostRounds = 64;  // of places that are added because they are not held yet
 
