@@ -115,7 +115,7 @@ def compute(
     progress: Progress | None = None,
     **settings: Any,
 ) -> Computation:
-    """The medial axis of a surface or of a cloud of points.
+    """Return the medial axis of a surface or of a cloud of points.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def compute_each_part(
     progress: Progress | None = None,
     **settings: Any,
 ) -> EachPart:
-    """The medial axis of each connected part of a mesh, as if the others were not there.
+    """Return the medial axis of each connected part of a mesh, as if the others were not there.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def compute_each_part(
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
-    """The axis for other thresholds, of the analysis that was computed: milliseconds.
+    """Return the axis for other thresholds, of the analysis that was computed: milliseconds.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def cover_by_balls(
     progress: Progress | None = None,
     **settings: Any,
 ) -> BallCover:
-    """A solid as few balls of its medial axis.
+    """Return a solid as few balls of its medial axis.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def cover_by_balls(
 def reduce(
     found: MedialAxis | Computation, vertices: int, *, progress: Progress | None = None
 ) -> MedialAxis:
-    """A small medial mesh: the same solid with few vertices, as polygons and edges of the same topology.
+    """Return a small medial mesh: the same solid with few vertices, as polygons and edges of the same topology.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def reduce(
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
-    """The watertight surface through points that lie densely on a closed one (Tight Cocone).
+    """Return the watertight surface through points that lie densely on a closed one (Tight Cocone).
 
     Parameters
     ----------
@@ -304,7 +304,7 @@ def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Recon
 
 
 def read(path: str | os.PathLike[str]) -> Shape:
-    """Points, triangles and normals of a file: .xyz .xyzn .off .ply .obj .stl .npy .npz.
+    """Return points, triangles and normals of a file: .xyz .xyzn .off .ply .obj .stl .npy .npz.
 
     Polygons are cut into triangles. Without faces `triangles` is empty, without normals `normals` is None.
 
@@ -363,7 +363,7 @@ def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
-    """A medial axis that `write` wrote as .npz, bit for bit; or balls, triangles and edges of any tool's .ma.
+    """Return a medial axis that `write` wrote as .npz, bit for bit; or balls, triangles and edges of any tool's .ma.
 
     Raises
     ------
@@ -388,7 +388,7 @@ def _progress(given: Progress | None) -> Progress | None:
 
 
 def _path(given: str | os.PathLike[str]) -> Path:
-    """The path, of text or of bytes, as `open` takes them."""
+    """Return the path, of text or of bytes, as `open` takes them."""
     _check_kind(given, "path", str, bytes, os.PathLike)
     name = os.fsdecode(given)
     if "\0" in name:
@@ -422,12 +422,12 @@ def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | 
 
 
 def _numbers(rows: ArrayLike, name: str) -> NDArray[np.float64]:
-    """(n, 3) float64, a copy only where that is necessary."""
+    """Return an (n, 3) array of float64, a copy only where that is necessary."""
     return np.ascontiguousarray(_rows(rows, name, "fiu", "numbers"), np.float64)
 
 
 def _corners(rows: ArrayLike) -> NDArray[np.int32]:
-    """(m, 3) int32, a copy only where that is necessary."""
+    """Return an (m, 3) array of int32, a copy only where that is necessary."""
     found = _rows(rows, "triangles", "iu", "integers")
     limits = np.iinfo(np.int32)
     if found.size and not (limits.min <= found.min() and found.max() <= limits.max):
@@ -457,7 +457,7 @@ def _rows(rows: ArrayLike, name: str, kinds: str, what: str) -> NDArray[Any]:
 
 
 def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
-    """The arguments of `Settings` from the options that a caller gave."""
+    """Return the arguments of `Settings` from the options that a caller gave."""
     unknown = next((name for name in given if name not in names), None)
     if unknown is not None:
         what = "; compute again for others" if unknown in OPTIONS else ""
@@ -475,7 +475,7 @@ def _value(value: Any, name: str, option: Any) -> Any:
 
 
 def _plain(value: Any, name: str, wanted: Any, advice: str) -> Any:
-    """The value as bool, int or float, if it is one without rounding."""
+    """Return the value as bool, int or float, if it is one without rounding."""
     try:
         if isinstance(value, str) or wanted(value) != value:
             raise ValueError

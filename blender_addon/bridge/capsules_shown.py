@@ -27,7 +27,7 @@ def add_capsules(thing: bpy.types.Object) -> bpy.types.NodesModifier:
 
 
 def is_capsules(group: bpy.types.NodeTree | None) -> bool:
-    """Whether this is our group, by whatever name."""
+    """Return whether this is our group, by whatever name."""
     return group is not None and bool(group.get(_BUILT_BY))
 
 

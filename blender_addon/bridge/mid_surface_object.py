@@ -93,7 +93,7 @@ def _write_thick(source: bpy.types.Object, found: MidSurface, frame: NDArray[np.
 
 
 def place_thick_parts(sheets: bpy.types.Object) -> None:
-    """Let the thick parts beside a middle surface, if there are any, have its place and its parent."""
+    """Let the thick parts next to a middle surface, if there are any, have its place and its parent."""
     source = source_of(sheets)
     thick = None if source is None else THICK_PARTS.of(source)
     if thick is not None:

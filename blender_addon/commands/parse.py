@@ -79,5 +79,5 @@ def _complete(wanted: argparse.Namespace) -> None:
 
 
 def _is_still(path: str) -> bool:
-    """Whether a path is one file for all frames: its format has none, and its name no number."""
+    """Return whether a path is one file for all frames: its format has none, and its name no number."""
     return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)

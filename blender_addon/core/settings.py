@@ -134,7 +134,7 @@ AS_IN_PAPER = ("wrap_opening", "epsilon", "budget", "keep_vertices", "pairs")
 
 
 def applies_to_form(name: str, form: Form) -> bool:
-    """Whether an option changes anything for a Form."""
+    """Return whether an option changes anything for a Form."""
     if name in ("simplify", "erode", "spike", "mesh"):
         return form is Form.CLEAN
     if name == "detail":
@@ -147,7 +147,7 @@ def applies_to_form(name: str, form: Form) -> bool:
 def applies(
     name: str, sampling: SamplingMode, spacing: float, of_faces: tuple[str, ...] = ()
 ) -> bool:
-    """Whether an option of the sampling changes anything for a choice of Sampling and a Spacing.
+    """Return whether an option of the sampling changes anything for a choice of Sampling and a Spacing.
 
     `of_faces` are the options that matter for Vertices, too (`Settings.options_of_faces`).
     """
@@ -385,7 +385,7 @@ class Settings(Options):
     )
     samples: int = integer(
         "Samples",
-        "How many samples of the faces are wanted; Adaptive starts from so many",
+        "How many samples of the faces are wanted; Adaptive starts from this number",
         default=16_000,
         limits=(100, 5_000_000),
         soft_limits=(1_000, 200_000),
@@ -443,7 +443,7 @@ class Settings(Options):
     pairs: bool = switch(
         "Pairs",
         "Between close walls, samples lie opposite each other, so that thin sheets are whole "
-        "whatever the spacing; small details beside them still need small spacings",
+        "whatever the spacing; small details next to them still need small spacings",
         default=False,
     )
     seed: int = integer(
@@ -571,7 +571,7 @@ class RigSettings(Options):
 
     per_limb: int = integer(
         "Bones per Limb",
-        "The number of bones along each limb, where there is room for so many; "
+        "The number of bones along each limb, where there is room for them; "
         "0: as many as its bends and its length need, and at least three",
         default=0,
         limits=(0, 100),
@@ -636,17 +636,17 @@ class Look(Options):
     )
     within: float = number(
         "Within",
-        "Facets of an outer axis are shown as far as they lie in the bounding box, made so "
-        "many times as large, and are cut off there; 0: all of them",
+        "Facets of an outer axis are shown as far as they lie in the bounding box, enlarged by "
+        "this factor, and are cut off there; 0: all of them",
         default=1.5,
         limits=(0.0, 1000.0),
         soft_maximum=5.0,
     )
     crumbs: float = number(
         "Remove Crumbs",
-        "Pieces of a clean form or a curve without facets that are smaller than so many spacings of the "
-        "samples are not shown, unless the closed faces have them, too; of an outer axis, pieces smaller than so "
-        "many of their balls; 0: all pieces",
+        "Pieces of a clean form or a curve without facets that are smaller than this many spacings of the "
+        "samples are not shown, unless the closed faces have them, too; of an outer axis, pieces smaller than "
+        "this many of their balls; 0: all pieces",
         default=1.0,
         limits=(0.0, 4.0),
     )
@@ -828,7 +828,7 @@ class MidSurfaceSettings(Options):
 
     least_width: float = number(
         "Least Width",
-        "A wall is at least so many times as wide as it is thick; narrower parts are left out. 0: none are",
+        "A wall is at least this many times as wide as it is thick; narrower parts are left out. 0: none are",
         default=2.0,
         limits=(0.0, math.inf),
         soft_maximum=20.0,

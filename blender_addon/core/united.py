@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def united(count: int, pairs: NDArray[np.integer]) -> NDArray[np.int64]:
-    """(count,) the smallest item that (p, 2) pairs connect each item with, maybe by way of others.
+    """Return the smallest item that (p, 2) pairs connect each item with, (count,), maybe by way of others.
 
     Each item that stands for others goes to a smaller one, if a pair leads there; pairs shrink to those between such
     items, so few rounds suffice also along chains.

@@ -54,7 +54,6 @@ RUN_BY = {
     "cmake -S . -B build": "python/test_consumer.py::test_sources_as_a_part_of_another_project",
     "cmake --install": "python/test_consumer.py::test_installed_library",
     "pip install .": "python/test_wheel.py::test_command",
-    "python3 tools/packaging/manual.py": "python/test_offline_manual.py::folder",
     "python3 tests/wrap_docs.py": "python/test_docs.py::test_the_docs_are_wrapped",
     "python3 -m lab.race.judge": "../lab/tests/test_race.py::test_the_commands_of_the_page",
 }

@@ -20,7 +20,7 @@ class Image:
     processor: int
     taken: dict[str, set[str]]  # by library: the names taken from it, or '#' and the number
     exported: list[str]
-    movable: bool  # Windows may load it at any address, and is told which places change then
+    movable: bool  # Windows may load it at any address, and learns which places change then
     guarded: bool  # its data cannot be run as code
 
 

@@ -77,7 +77,7 @@ def _bring_headers(target: Path) -> list[str]:
 
 
 def write_commands(target: str) -> None:
-    """The commands of a target. zig keeps what it compiled beside itself, not in the home of who builds, and adds no
+    """The commands of a target. zig keeps what it compiled next to itself, not in the home of who builds, and adds no
     checks of undefined behaviour, for which it would compile one more library.
     """
     commands = folder() / target

@@ -52,7 +52,7 @@ class LiveSource:
 
 
 def can_be_live(result: bpy.types.Object) -> bool:
-    """Whether a result belongs to a whole source, and is the one that the next computation of it updates."""
+    """Return whether a result belongs to a whole source, and is the one that the next computation of it updates."""
     source = source_of(result)
     return not is_gone(result) and not is_gone(source) and result_of(source) == result
 
@@ -65,13 +65,13 @@ def live_results() -> list[bpy.types.Object]:
 
 
 def is_at_rest(result: bpy.types.Object) -> bool:
-    """Whether a result and its source are in object mode, and Blender evaluates the source, which is not hidden."""
+    """Return whether a result and its source are in object mode, and Blender evaluates the visible source."""
     source = source_of(result)
     return result.mode == source.mode == "OBJECT" and source.visible_get()
 
 
 def is_slow(result: bpy.types.Object) -> bool:
-    """Whether the last computation took more than a second, so that a coarse answer comes first."""
+    """Return whether the last computation took more than a second, so that a coarse answer comes first."""
     return result.get(SECONDS, 0.0) > 1.0
 
 

@@ -62,7 +62,7 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
 
 
 def world_matrix(result: bpy.types.Object) -> NDArray[np.float64]:
-    """(4, 4) where the object lies in the world."""
+    """Return where the object lies in the world, (4, 4)."""
     return np.array(result.matrix_world, np.float64)
 
 
@@ -81,7 +81,7 @@ def _readable_mesh(result: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
 
 
 def _edges_alone(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
-    """(w, 2) the ends of the edges without a face, and (w,) which edges these are."""
+    """Return (w, 2) the ends of the edges without a face, and (w,) which edges these are."""
     alone = np.ones(len(mesh.edges), bool)
     alone[read_corner_edges(mesh)] = False
     return read_edges(mesh)[alone], np.flatnonzero(alone)

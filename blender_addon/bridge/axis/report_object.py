@@ -50,7 +50,7 @@ is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.chec
 
 
 def has_report(thing: bpy.types.Object) -> bool:
-    """Whether this is a report, or a source that carries its report itself."""
+    """Return whether this is a report, or a source that carries its report itself."""
     return thing.type == "MESH" and SHARE in thing
 
 
@@ -119,7 +119,7 @@ def check_source_writable(source: bpy.types.Object) -> None:
 
 
 def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
-    """Whether a source can take its report now, and has vertices enough to show it."""
+    """Return whether a source can take its report now, and has vertices enough to show it."""
     try:
         check_source_writable(source)
     except InvalidInputError:
@@ -169,7 +169,7 @@ def write_on_source(
 
 
 def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
-    """(v,) the largest epsilon of the samples nearest to each vertex; where there is none, that of the sample
+    """Return the largest epsilon of the samples nearest to each vertex, (v,); where there is none, that of the sample
     nearest to the vertex."""
     vertices = found.shape.points
     to_vertex = _nearest(found.vertices, vertices)
@@ -181,7 +181,7 @@ def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
 
 
 def _nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(n,) row of the nearest of the others to each point."""
+    """Return the row of the nearest of the others to each point, (n,)."""
     tree = KDTree(len(others))
     for row, other in enumerate(others.tolist()):
         tree.insert(other, row)

@@ -94,7 +94,7 @@ def _column(mesh: bpy.types.Mesh, name: str, domain: str) -> NDArray[np.int32] |
 
 
 def _is_whole(structure: Structure) -> bool:
-    """Whether the elements are still those that the table is about: every part, curve and node is there once."""
+    """Return whether the elements are still those that the table is about: every part, curve and node is there once."""
     parts, curves = np.unique(structure.part), np.unique(structure.curve[structure.curve >= 0])
     nodes = np.flatnonzero(np.isin(structure.kind, (2, 4)))
     return (

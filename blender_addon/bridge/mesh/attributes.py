@@ -176,7 +176,7 @@ def add_normals(attributes: bpy.types.AttributeGroup, normals: NDArray) -> None:
 
 
 def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | None:
-    """(n, 3) the normals of the points of a mesh or point cloud; None when it has none.
+    """Return the normals of the points of a mesh or point cloud, (n, 3); None when it has none.
 
     Those of the sheets of a medial axis are none: neither side of a sheet is outside.
     """
@@ -190,7 +190,7 @@ def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | 
 
 
 def read_vectors(elements: bpy.types.bpy_prop_collection, name: str) -> NDArray[np.float64]:
-    """(n, 3) a vector property of all elements."""
+    """Return a vector property of all elements, (n, 3)."""
     values = np.empty(3 * len(elements), np.float32)
     elements.foreach_get(name, values)
     return values.astype(np.float64).reshape(-1, 3)

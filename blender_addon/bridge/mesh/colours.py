@@ -90,7 +90,7 @@ def _coloured_like(thing: bpy.types.Object) -> list[bpy.types.Object]:
 
 
 def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:
-    """(name of the attribute, start, end) of what an object is coloured by; None when it is not coloured."""
+    """Return (name of the attribute, start, end) of what an object is coloured by; None when it is not coloured."""
     if not thing.get(OF):
         return None
     return thing[OF], thing[START], thing[END]

@@ -2,7 +2,7 @@
 """The vertices of a mesh among those that its modifiers leave.
 
 Modifiers may reorder vertices and faces without changing their number (Build, Sort Elements), so equal counts say
-nothing. An index that travels through the evaluation as an attribute tells which vertex became which.
+nothing. An index that travels through the evaluation as an attribute says which vertex became which.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _DEFORMING = {
 
 
 def row_of_vertices(source: bpy.types.Object) -> NDArray[np.int32] | None:
-    """(v,) the row of each vertex of a mesh among the evaluated vertices.
+    """Return the row of each vertex of a mesh among the evaluated vertices, (v,).
 
     None where a vertex is missing there or is there more than once. The mesh must be writable.
     """
@@ -56,7 +56,7 @@ def row_of_vertices(source: bpy.types.Object) -> NDArray[np.int32] | None:
 
 
 def keeps_rows(source: bpy.types.Object) -> bool:
-    """Whether the evaluated mesh has the vertices and faces of the mesh itself, in the same order."""
+    """Return whether the evaluated mesh has the vertices and faces of the mesh itself, in the same order."""
     mesh = source.data
     found = (
         _rows(source, domain, len(elements))
@@ -66,7 +66,7 @@ def keeps_rows(source: bpy.types.Object) -> bool:
 
 
 def only_deforms(source: bpy.types.Object) -> bool:
-    """Whether no modifier that is shown changes the number or the order of vertices."""
+    """Return whether no modifier that is shown changes the number or the order of vertices."""
     return all(m.type in _DEFORMING or not m.show_viewport for m in source.modifiers)
 
 

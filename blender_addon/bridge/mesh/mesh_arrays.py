@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
-    """(n, 3) the vertices."""
+    """Return the vertices, (n, 3)."""
     if "position" in mesh.attributes:  # from 3.6 or so; then it alone is copied in one go
         return read_vectors(mesh.attributes["position"].data, "vector")
     return read_vectors(mesh.vertices, "co")
@@ -36,7 +36,7 @@ def read_polygons(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.i
 
 
 def read_spans(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """(m,) the first corner of each polygon, and (m,) how many it has."""
+    """Return (m,) the first corner of each polygon, and (m,) how many it has."""
     starts = _read_unsigned(mesh.polygons, "loop_start")
     if bpy.app.version < (4, 1, 0):
         return starts, _read_unsigned(mesh.polygons, "loop_total")
@@ -44,22 +44,22 @@ def read_spans(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int3
 
 
 def read_corners(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """(c,) the vertex of each corner."""
+    """Return the vertex of each corner, (c,)."""
     return _read_of_corners(mesh, ".corner_vert", "vertex_index")
 
 
 def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """(c,) the edge that begins at each corner."""
+    """Return the edge that begins at each corner, (c,)."""
     return _read_of_corners(mesh, ".corner_edge", "edge_index")
 
 
 def read_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """(e, 2) the ends of each edge."""
+    """Return the ends of each edge, (e, 2)."""
     return _read_unsigned(mesh.edges, "vertices", 2).reshape(-1, 2)
 
 
 def read_loop_triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """(t, 3) Blender's own triangles, and (t,) the polygon of each."""
+    """Return (t, 3) Blender's own triangles, and (t,) the polygon of each."""
     mesh.calc_loop_triangles()
     triangles = mesh.loop_triangles
     corners = _read_unsigned(triangles, "vertices", 3).reshape(-1, 3)
@@ -84,7 +84,7 @@ def _read_unsigned(
 
 
 def selected_faces(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
-    """(p,) which faces are selected in edit mode."""
+    """Return which faces are selected in edit mode, (p,)."""
     selected = np.zeros(len(mesh.polygons), bool)
     mesh.polygons.foreach_get("select", selected)
     return selected

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import bpy
     from numpy.typing import NDArray
 
-_STEPS = 100  # weights are written in so many steps, each in one call
+_STEPS = 100  # weights are written in this many steps, each in one call
 
 
 def write_steps(source: bpy.types.Object, name: str, weights: NDArray[np.float64]) -> None:

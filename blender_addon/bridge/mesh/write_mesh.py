@@ -100,7 +100,7 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
 def _shade_by_side(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> None:
     """Shade the smooth faces flat that the normal at a corner of theirs looks away from, which renders draw black.
 
-    Smoothness ends at a flat face, so the normals beside it change; each round makes more faces flat, or is the last.
+    Smoothness ends at a flat face, so the normals next to it change; each round makes more faces flat, or is the last.
     """
     while True:
         smooth = _read(mesh.polygons, "use_smooth", np.bool_, 1)[:, 0]

@@ -18,7 +18,7 @@ from .wires import wires_of
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
-_MOST_BALLS = 4_000  # about so many balls are left
+_MOST_BALLS = 4_000  # about this many balls are left
 _BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 
@@ -64,7 +64,7 @@ GROUPS = {
 
 
 def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
-    """Whether this is one of our groups, by whatever name."""
+    """Return whether this is one of our groups, by whatever name."""
     return tree is not None and tree.get(_BUILT_BY) == key
 
 

@@ -16,7 +16,7 @@ def set_inputs(modifier: bpy.types.NodesModifier, values: dict[str, Any]) -> Non
 
 
 def has_inputs(tree: bpy.types.NodeTree | None, *names: str) -> bool:
-    """Whether a group has these inputs; one that an older version made may lack some."""
+    """Return whether a group has these inputs; one that an older version made may lack some."""
     if tree is None:
         return False
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs  # from 4.0
@@ -32,7 +32,7 @@ def input_of(modifier: bpy.types.NodesModifier, name: str) -> Any:
 
 
 def row_of(modifier: bpy.types.NodesModifier, name: str) -> tuple[Any, str]:
-    """(owner, property) for a row of a panel."""
+    """Return (owner, property) for a row of a panel."""
     identifier = _identifier(modifier.node_group, name)
     if _in_properties(modifier):
         return getattr(modifier.properties.inputs, identifier), "value"

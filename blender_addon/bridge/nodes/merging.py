@@ -16,7 +16,7 @@ _HALVINGS = 16
 def merging_distance(points: NDArray[np.float64], most: int) -> float:
     """Return the distance that leaves about `most` of (n, 3) points; 0 where there are no more.
 
-    So many cells of a grid of that width have points in them.
+    This many cells of a grid of that width have points in them.
     """
     if len(points) <= most:
         return 0.0

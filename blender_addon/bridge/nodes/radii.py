@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def points_with_radii(
     tree: Tree, merge: bpy.types.NodeSocket, axis: bpy.types.NodeSocket | None = None
 ) -> tuple[bpy.types.NodeSocket, bpy.types.NodeSocket]:
-    """(the points of the axis, their radii), with the inputs *Factor*, *Offset* and *Min Radius*.
+    """Return (the points of the axis, their radii), with the inputs *Factor*, *Offset* and *Min Radius*.
 
     Of vertices closer than `merge` one stays. A radius times the factor plus the offset is a thicker or thinner solid;
     where that is nothing, there is no ball. `axis` is the mesh if that is not the geometry of the group.

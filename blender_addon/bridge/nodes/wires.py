@@ -78,7 +78,7 @@ def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
 
 
 def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str] | None:
-    """(owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
+    """Return (owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
     return row_of(modifier, _WIDTH) if has_inputs(modifier.node_group, _WIDTH) else None
 
 
@@ -148,7 +148,7 @@ def _new_group() -> bpy.types.NodeTree:
     edges, faces = neighbours["Vertex Count"], neighbours["Face Count"]
     bare = tree.compare("LESS_THAN", faces, 0.5)
     lone = tree.compare("LESS_THAN", edges, 0.5)
-    # A wire goes on where it has two neighbours; elsewhere it ends or forks.
+    # A wire continues where it has two neighbours; elsewhere it ends or forks.
     ends = tree.logic("AND", bare, tree.compare("GREATER_THAN", _away_from_two(tree, edges), 0.5))
     has_tubes = tree.compare("GREATER_THAN", sides, 2.5)
     ends = tree.logic("AND", tree.logic("AND", ends, tree.logic("NOT", lone)), has_tubes)

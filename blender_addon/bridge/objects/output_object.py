@@ -106,7 +106,7 @@ class Product:
     material: Callable[[], bpy.types.Material] | None = None
 
     def has(self, thing: bpy.types.Object) -> bool:
-        """Whether an object is of this kind."""
+        """Return whether an object is of this kind."""
         return thing.type == self.type and all(mark in thing for mark in self.marks)
 
     def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
@@ -210,7 +210,7 @@ def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = F
 
 
 def is_torn(output: bpy.types.Object) -> bool:
-    """Whether an object and its mesh were not written together: undo has brought back one of them."""
+    """Return whether an object and its mesh were not written together: undo has brought back one of them."""
     return output.get(_WRITTEN) != output.data.get(_WRITTEN)
 
 

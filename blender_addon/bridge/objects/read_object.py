@@ -88,7 +88,7 @@ def split_transform(
 
 
 def _mirror_of(linear: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3, 3) a mirror along the direction that a matrix stretches least.
+    """Return a mirror along the direction that a matrix stretches least, (3, 3).
 
     Of several such directions it is the one closest to an axis, the first of these. Otherwise the rounding of float32
     would choose, and two readings of one transform would differ.
@@ -131,7 +131,7 @@ def _without_rounding(rest: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _of_normals(rest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3, 3) what turns outward normals when `rest` moves the points: its inverse transpose, up to a
+    """Return what turns outward normals when `rest` moves the points, (3, 3): its inverse transpose, up to a
     positive factor, which also exists where `rest` is flat.
     """
     cofactors = np.cross(rest[[1, 2, 0]], rest[[2, 0, 1]])
@@ -215,7 +215,7 @@ def _read_triangles(mesh: bpy.types.Mesh, points: NDArray[np.float64]) -> NDArra
 
 
 def _read_sharp_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
-    """(e, 2) the edges that are marked sharp; None where there is none."""
+    """Return the edges that are marked sharp, (e, 2); None where there is none."""
     marked = _read_marks(mesh, mesh.edges, "use_edge_sharp", "sharp_edge")
     return read_edges(mesh)[marked] if marked.any() else None
 

@@ -28,7 +28,7 @@ STATE = "ma_source_state"  # a hash of the shape
 SCALE = "ma_source_scale"  # scale, shear and mirror, 9 numbers
 
 _ROUNDING = 1e-5  # share of the scale that is lost where a matrix in float32 is turned
-_SELDOM = 20.0  # a check is repeated after so many times its own duration
+_SELDOM = 20.0  # a check is repeated after this many times its own duration
 _VALUES = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 _NO_SHAPE = {
     "name",
@@ -99,7 +99,7 @@ def same_state(source: bpy.types.Object) -> Iterator[None]:
 
 
 def has_changed(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None) -> bool:
-    """Whether the source is known to have another state than when the output was made.
+    """Return whether the source is known to have another state than when the output was made.
 
     Panels may call it whenever they are drawn: for large meshes the answer is up to a few seconds old.
     """

@@ -22,7 +22,7 @@ def others_of(made: bpy.types.Object) -> list[bpy.types.Object]:
 
 
 def are_back(made: bpy.types.Object) -> bool:
-    """Whether all of these are hidden in this view layer."""
+    """Return whether all of these are hidden in this view layer."""
     others = others_of(made)
     return bool(others) and all(thing.hide_get() for thing in others)
 

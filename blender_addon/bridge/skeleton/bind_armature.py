@@ -189,7 +189,7 @@ def _forget_groups(source: bpy.types.Object, armature: bpy.types.Object) -> None
 
 
 def _is_painted(source: bpy.types.Object, armature: bpy.types.Object) -> bool:
-    """Whether someone changed the weights since they were made; groups that are gone have nothing to lose."""
+    """Return whether someone changed the weights since they were made; groups that are gone have nothing to lose."""
     names = _own_groups(source, armature)
     key = _WEIGHTS + (mark_of(armature, source) or "")
     if _names(source).isdisjoint(names) or key not in armature:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def selected_ends(source: bpy.types.Object, shape: Shape) -> NDArray[np.float64]:
-    """(e, 3) an end for each connected group of selected vertices: their mean, in the space of the shape.
+    """Return an end for each connected group of selected vertices, (e, 3): their mean, in the space of the shape.
 
     Raises
     ------

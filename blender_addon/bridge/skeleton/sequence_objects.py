@@ -35,7 +35,7 @@ _NAME = re.compile(r"(.*?)(?:_(-?\d+)|[.-]?(\d+))")  # a minus belongs to a numb
 
 
 def sequences(paths: Iterable[Path]) -> list[tuple[str, dict[int, Path]]]:
-    """(name, {frame: path}) of each sequence among some files; the reports next to them are passed over.
+    """Return (name, {frame: path}) of each sequence among some files; the reports next to them are passed over.
 
     Raises
     ------

@@ -154,7 +154,7 @@ def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
 def _most_frequent(
     face: NDArray[np.int64], part: NDArray[np.int32], count: int
 ) -> NDArray[np.int32]:
-    """(count,) the part that most corners of each face have; of several the lowest."""
+    """Return the part that most corners of each face have, (count,); of several the lowest."""
     pairs, times = np.unique(np.column_stack((face, part)), axis=0, return_counts=True)
     order = np.lexsort((-pairs[:, 1], times, pairs[:, 0]))
     values = np.full(count, -1, np.int32)

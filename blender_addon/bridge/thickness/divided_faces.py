@@ -60,7 +60,7 @@ def divided(
     wanted : function
         The triangles of a shape that have to be divided, and how long their edges may be.
     most : int
-        So many steps are tried.
+        This many steps are tried.
     """
     mesh = source.data
     source.data = tried = mesh.copy()

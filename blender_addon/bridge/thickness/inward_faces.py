@@ -49,7 +49,7 @@ def turn_inward(thing: bpy.types.Object) -> int:
 
 
 def inward_polygons(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
-    """(p,) the polygons that rays call turned, without modifiers."""
+    """Return the polygons that rays call turned, (p,), without modifiers."""
     triangles, polygons = read_loop_triangles(mesh)
     inward = np.zeros(len(mesh.polygons), bool)
     reading = outward_shape(Shape(read_positions(mesh), triangles)).reading

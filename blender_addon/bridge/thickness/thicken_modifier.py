@@ -100,6 +100,6 @@ def thicken_modifier(source: bpy.types.Object) -> bpy.types.NodesModifier | None
 
 
 def selected_triangles(source: bpy.types.Object) -> NDArray[np.bool_]:
-    """(m,) which of a mesh's triangles belong to faces that are selected in edit mode."""
+    """Return which of a mesh's triangles belong to faces that are selected in edit mode, (m,)."""
     _, polygons = read_loop_triangles(source.data)
     return selected_faces(source.data)[polygons]

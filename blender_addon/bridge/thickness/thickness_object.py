@@ -150,7 +150,7 @@ def scale_on(carrier: bpy.types.Object) -> ThicknessScale | None:
 
 
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
-    """Whether a source has as many vertices and faces as were measured, and can be written."""
+    """Return whether a source has as many vertices and faces as were measured, and can be written."""
     if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
         return False
     mesh = source.data

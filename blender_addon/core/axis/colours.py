@@ -30,7 +30,7 @@ UNKNOWN = (0.25, 0.25, 0.25)  # the colour of NaN
 
 
 def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
-    """(n, 4) linear RGBA of (n,) numbers: blue at `start`, yellow at `end`, and the nearer of both outside.
+    """Return linear RGBA of (n,) numbers, (n, 4): blue at `start`, yellow at `end`, and the nearer of both outside.
 
     `start` may be the larger one. Where both are equal, every number gets the colour of the start. NaN is grey.
     """
@@ -44,7 +44,7 @@ def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
 
 
 def part_colours(parts: ArrayLike) -> NDArray[np.float32]:
-    """(n, 4) linear RGBA of (n,) numbers of parts: numbers that follow each other have colours that differ much."""
+    """Return colours for numbers of parts, (n, 4) linear RGBA: numbers next to each other differ much."""
     hue = np.asarray(parts, np.float64)[:, None] * _GOLDEN + np.array([0.0, 2.0, 1.0]) / 3.0
     shade = 1.0 - 0.25 * (np.asarray(parts) % 3)[:, None]
     result = np.ones((len(hue), 4), np.float32)
@@ -63,7 +63,7 @@ def radius_range(radii: Sequence[float] | NDArray) -> tuple[float, float]:
 
 
 def _shares(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
-    """(n,) the positions of numbers between start (0) and end (1); 0 or 1 outside."""
+    """Return the positions of numbers between start (0) and end (1), (n,); 0 or 1 outside."""
     if start == end:
         return np.where(np.isnan(values), np.nan, 0.0)
     with np.errstate(over="ignore"):

@@ -74,7 +74,7 @@ def without_crumbs(axis: MedialAxis, smallest: float) -> MedialAxis:
 
 
 def _piece_of(wires: NDArray[np.int32], small: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """(v,) the lowest vertex of the piece of each vertex; -1 where a vertex of the piece is not small."""
+    """Return the lowest vertex of the piece of each vertex, (v,); -1 where a vertex of the piece is not small."""
     both = wires[small[wires].all(axis=1)]
     piece = lowest_of_piece(len(small), np.arange(0, 2 * len(both), 2), both.ravel())
     mixed = wires[small[wires].any(axis=1) & ~small[wires].all(axis=1)].ravel()
@@ -86,7 +86,7 @@ def _piece_of(wires: NDArray[np.int32], small: NDArray[np.bool_]) -> NDArray[np.
 def _sizes(
     level: Any, rows: NDArray[np.int64], piece: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """(r,) the size of the piece of each of these vertices, and the first vertex of that piece."""
+    """Return the size of the piece of each of these vertices, (r,), and the first vertex of that piece."""
     order = np.argsort(piece, kind="stable")
     starts = np.flatnonzero(np.diff(piece[order], prepend=-1))
     places, radius = level.vertices[rows][order], level.radius[rows][order]

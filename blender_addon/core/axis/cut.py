@@ -23,7 +23,7 @@ _PER_FACET = ("theta", "rho", "side", "generators")
 
 
 def pieces(axis: MedialAxis) -> NDArray[np.int64]:
-    """(f,) the number of the connected piece of each facet; piece 0 has the most facets."""
+    """Return the number of the connected piece of each facet, (f,); piece 0 has the most facets."""
     if not axis.facets:
         return np.zeros(0, np.int64)
     starts = axis.face_offsets[:-1]
@@ -46,7 +46,7 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
 
 
 def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
-    """Drop the outer pieces that are smaller than so many diameters of their balls; the largest piece always stays.
+    """Drop the outer pieces that are smaller than this many diameters of their balls; the largest piece always stays.
 
     The diagonal of the bounding box of a piece counts, and the mean of the balls at its corners. Sheets of the outside
     reach many diameters far; a piece that does not is a remainder of one that the thresholds have not kept.
@@ -96,7 +96,7 @@ def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
 def lowest_of_piece(
     vertices: int, starts: NDArray[np.integer], corners: NDArray[np.integer]
 ) -> NDArray[np.int64]:
-    """(v,) the lowest vertex of the piece of each vertex; facets or edges join their corners.
+    """Return the lowest vertex of the piece of each vertex, (v,); facets or edges join their corners.
 
     Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
     changes. Corners are sorted by their vertices once, because NumPy's `minimum.at` takes far longer.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def facet_areas(
     vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """(f,) the areas of planar facets; those of others are a little less than their triangles'.
+    """Return the areas of planar facets, (f,); those of others are a little less than their triangles'.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def facet_areas(
 def facet_normals(
     vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """(f, 3) the unit normals of facets, which are given as for `facet_areas`; 0 where a facet has no area."""
+    """Return the unit normals of facets, (f, 3), which are given as for `facet_areas`; 0 where a facet has no area."""
     return _unit(_doubled_areas(_scaled(vertices), offsets, corners))
 
 
@@ -42,7 +42,7 @@ def sheet_normals(
     corners: NDArray[np.int32],
     part: NDArray[np.int32],
 ) -> NDArray[np.float64]:
-    """(v, 3) the unit normal of the sheet at each vertex, the mean over the facets of one part, by area.
+    """Return the unit normal of the sheet at each vertex, (v, 3), the mean over the facets of one part, by area.
 
     A vertex on a seam has that of the part with the largest area round it, of equal ones the lowest. Where facets of a
     part look opposite ways, as where a part with one side only must turn over, it is that of the largest facet.
@@ -73,7 +73,7 @@ def sheet_normals(
 def _part_of_vertices(
     count: int, vertex: NDArray[np.int32], part: NDArray[np.int32], area: NDArray[np.float64]
 ) -> NDArray[np.int32]:
-    """(count,) the part with the largest area at each vertex, of corners with a vertex, a part and an area."""
+    """Return the part with the largest area at each vertex, (count,), of corners with a vertex, a part and an area."""
     own = np.full(count, -1, np.int32)
     own[vertex] = part
     several = np.zeros(count, np.bool_)
@@ -92,20 +92,20 @@ def _part_of_vertices(
 def _doubled_areas(
     vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """(f, 3) vectors along the normals of facets, twice as long as their areas are large."""
+    """Return vectors along the normals of facets, (f, 3), twice as long as their areas are large."""
     with own_errors() as module:
         return np.asarray(module.polygon_areas(vertices, offsets, corners))
 
 
 def corners_after(offsets: NDArray[np.int32]) -> NDArray[np.int64]:
-    """(c,) the corner after each corner of a facet, whose corners begin at (f + 1,) `offsets`."""
+    """Return the corner after each corner of a facet, (c,), whose corners begin at (f + 1,) `offsets`."""
     after = np.arange(1, int(offsets[-1]) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
     return after
 
 
 def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(v, 3) the unit direction of the curve at each vertex, the same way along a chain of a relaxed level.
+    """Return the unit direction of the curve at each vertex, (v, 3), the same way along a chain of a relaxed level.
 
     At a fork it is that of the two wires that go straightest through it. A vertex without a wire has the vector 0.
 
@@ -140,7 +140,7 @@ def _scaled(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _sums(rows: NDArray[np.int32], vectors: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """(count, 3) the sum of the vectors with each row."""
+    """Return the sum of the vectors with each row, (count, 3)."""
     return np.column_stack([np.bincount(rows, vectors[:, k], count) for k in range(3)])
 
 

@@ -86,7 +86,7 @@ def _flattened(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
 
 
 def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(m,) the corner of each (m, k) polygon where the smaller of ear and remainder is largest."""
+    """Return the corner of each (m, k) polygon where the smaller of ear and remainder is largest, (m,)."""
     x_next, y_next = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     x_last, y_last = np.roll(x, 1, axis=1), np.roll(y, 1, axis=1)
     ear = (x - x_last) * (y_next - y) - (y - y_last) * (x_next - x)

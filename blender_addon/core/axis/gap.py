@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CLEAR = 3.0  # a gap is clear where what stays is so many times as thick as what goes
+_CLEAR = 3.0  # a gap is clear where what stays is this many times as thick as what goes
 _SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes
 
 

@@ -127,7 +127,7 @@ def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
 
 
 def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(n,) whether places are in the solid; all of them where no faces decide."""
+    """Return whether places are in the solid, (n,); all of them where no faces decide."""
     if samples.solid is None:
         return np.ones(len(places), np.bool_)
     shape = samples.solid.shape
@@ -136,7 +136,7 @@ def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np
 
 
 def _placing(level: Any) -> NDArray[np.int32]:
-    """(v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples, but for ends of curves.
+    """Return (v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples, but for ends of curves.
 
     A curve ends with radius 0 in the tip of a cone, or on a sharp edge.
     """

@@ -21,7 +21,7 @@ def polygon_triangles(
     face_offsets: NDArray[np.int32],
     face_vertices: NDArray[np.int32],
 ) -> NDArray[np.int32]:
-    """(c - 2 f, 3) int32 the triangles of polygon after polygon, each turning as its polygon does.
+    """Return (c - 2 f, 3) int32 the triangles of polygon after polygon, each turning as its polygon does.
 
     Quads are cut as in Blender, larger polygons by their constrained Delaunay triangulation.
 
@@ -44,7 +44,7 @@ def polygon_triangles(
 
 
 def axis_triangles(axis: MedialAxis) -> NDArray[np.int32]:
-    """(c - 2 f, 3) int32 the triangles of facet after facet, each turning as its facet does.
+    """Return (c - 2 f, 3) int32 the triangles of facet after facet, each turning as its facet does.
 
     Polygons of a small medial mesh, which have no generators, need not be convex.
     """

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _BEYOND = 1.02  # this multiple of the largest length takes away everything
-_STEPS = 256  # shares are told apart up to one of so many parts
+_STEPS = 256  # the number of parts into which a share is divided
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
 
 
 def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
-    """(f,) the areas of the facets of a hierarchy.
+    """Return the areas of the facets of a hierarchy, (f,).
 
     Those that are never shown, because they are no thicker than the spacing of the samples, have none.
     """

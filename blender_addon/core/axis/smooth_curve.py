@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     Inside = Callable[[NDArray[np.float64]], NDArray[np.bool_]]
 
 _FARTHEST = 0.5  # a place moves by at most this share of the radius of its ball
-_NEAR = 0.25  # so many steps before and after a fork there is no place
-_FEWEST = 3  # a wire with a vertex between its ends has so many places there, so no two lines share their ends only
-_FOLLOWS = 2.0  # within so many radii of a fork a line follows it when it moves
+_NEAR = 0.25  # this many steps before and after a fork there is no place
+_FEWEST = 3  # a wire with a vertex between its ends has this many places there, so no two lines share their ends only
+_FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,7 @@ class _Line:
     points : (n + 2, 3) float64
         The smooth places of the start, the new vertices and the end.
     through : (2,) tuple of bool
-        Whether the line goes on beyond the start and the end, which are then at the smooth place.
+        Whether the line continues beyond the start and the end, which are then at the smooth place.
     """
 
     chain: list[int]

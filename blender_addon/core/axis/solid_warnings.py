@@ -62,7 +62,7 @@ def solid_warnings(
 
 
 def normals_look_inward(sides: SidesFrom, chosen: ChosenSamples) -> bool:
-    """Whether normals decide what is inside, and point into it."""
+    """Return whether normals decide what is inside, and point into it."""
     samples = chosen.samples
     if sides is not SidesFrom.NORMALS or samples.normals is None:
         return False
@@ -94,7 +94,7 @@ def _of_topology(shape: Shape, chosen: ChosenSamples, betti: tuple[int, int, int
 
 
 def _of_parts_that_overlap(chosen: ChosenSamples) -> bool:
-    """Whether parts lie in each other, of which the faces count each by itself."""
+    """Return whether parts lie in each other, of which the faces count each by itself."""
     samples = chosen.samples
     return overlaps(samples) or bool(
         samples.buried and samples.by_faces and samples.by_faces[0] > 1
@@ -102,7 +102,7 @@ def _of_parts_that_overlap(chosen: ChosenSamples) -> bool:
 
 
 def _of_points_alone(chosen: ChosenSamples) -> Iterator[str]:
-    """Warn about the surface by which points alone tell the inside."""
+    """Warn about the surface by which points alone determine the inside."""
     samples = chosen.samples
     if chosen.sides.source is SidesFrom.POLES:
         yield from pole_warnings(samples.analysis, samples.points)

@@ -19,7 +19,7 @@ _PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
 
 
 def spacing_of(samples: AnalysedSamples) -> NDArray[np.float64]:
-    """(n,) the distance of neighbours at each sample; duplicates have 0."""
+    """Return the distance of neighbours at each sample, (n,); duplicates have 0."""
     if samples.apart is not None:
         return samples.apart
     spacing, found = np.zeros(len(samples.points)), samples.analysis.spacing * _PER_HOLE

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import InvalidInputError
 
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?::(\d{1,9}))?)?")
-_MOST = 1_000_000  # a range has at most so many frames
+_MOST = 1_000_000  # a range has at most this many frames
 _FORBIDDEN = re.compile(r'[\\/:*?"<>|\x00-\x1f]')  # some file systems refuse these
 _NUMBER = re.compile(r"#+")
 # These names mean a device on Windows, whatever extension follows.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _AS_FAR = (
     0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
 )
-_LAST = 2.0  # the end of a limb is so many radii long
+_LAST = 2.0  # the end of a limb is this many radii long
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,7 +60,7 @@ def removals_of(loaded: LoadedNet, genuine: int, share: float) -> Removals:
 
 
 def take_apart(loaded: LoadedNet, genuine: int, share: float, number: int) -> Loops:
-    """Do the first so many removals of those that `removals_of` records; the other parameters are the same."""
+    """Do the first removals, as many as `number`, of those that `removals_of` records from the other parameters."""
     done: list[int] = []
     for steps in _steps(loaded, genuine, share):
         done.append(sum(1 for _ in islice(steps, number - sum(done))))

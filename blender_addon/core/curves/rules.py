@@ -8,7 +8,7 @@ There are two rules for loops and one for branches:
 - A loop is *filled*, that is contracted to its largest ball, if it lies within one spacing of that ball: it goes around
   a pinhole.
 
-  Closed faces say how many loops the solid has; so many are kept, however thin they are.
+  Closed faces say how many loops the solid has; as many are kept, however thin they are.
 - A leaf is removed, the lightest first, if it hardly reaches out of the ball at its fork, or owns too small a share of
   the surface: it is a ridge of a plate or a terrace, and not a limb. The farther a leaf reaches, the less surface it
   needs.
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from .ends import Balls
     from .net import Net
 
-THIN = 2.0  # a loop is cut if it is thinner than so many spacings
-REACH = 1.6  # a limb reaches at least so many radii of the ball at its fork from the centre of that ball
+THIN = 2.0  # a loop is cut if it is thinner than this many spacings
+REACH = 1.6  # a limb reaches at least this many radii of the ball at its fork from the centre of that ball
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loo
     spacing : (p,) float64
         The spacing of the samples around each point.
     genuine : int
-        At least so many loops are kept.
+        At least this many loops are kept.
     """
     cut = sum(1 for _ in cut_loops(net, spacing, genuine))
     return Loops(cut, sum(1 for _ in fill_loops(net, spacing, genuine)))

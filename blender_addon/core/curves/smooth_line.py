@@ -19,14 +19,14 @@ from ..small_matrices import dot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_PER_RADIUS = 8  # a mean radius has so many steps
-_LEAST, _MOST = 16, 16_384  # a line has so many
-_HALVED = 0.7  # waves of so many circumferences lose half their height
-_CLIPPED = 2.0, 16.0  # that many radii count as so many steps
-_BEYOND = 64  # so many steps beyond an end have an influence
+_PER_RADIUS = 8  # a mean radius has this many steps
+_LEAST, _MOST = 16, 16_384  # a line has this many
+_HALVED = 0.7  # waves of this many circumferences lose half their height
+_CLIPPED = 2.0, 16.0  # that many radii count as this many steps
+_BEYOND = 64  # this many steps beyond an end have an influence
 _FOURTH = 1.0, -4.0, 6.0, -4.0, 1.0
 _BAND = len(_FOURTH)
-_AROUND = 2  # so many places before and after a place decide how the line bends there
+_AROUND = 2  # this many places before and after a place decide how the line bends there
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +125,7 @@ def smooth_between(
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Return shares and places of smooth lines in even steps, whose ends are those of the given lines.
 
-    Beyond each end a line goes on as its own image in the end, so the end stays and its direction is free.
+    Beyond each end a line continues as its own image in the end, so the end stays and its direction is free.
 
     Returns
     -------
@@ -219,7 +219,7 @@ def smoothed(places: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray
     ----------
     places : (n, 3) or (n, 3, lines) float64
     steps : (n,) or (n, lines) float64
-        Waves of 2 pi times so many steps lose half their height.
+        Waves of 2 pi times this many steps lose half their height.
     """
     middle = steps[2:-2]
     square = middle * middle

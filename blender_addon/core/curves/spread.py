@@ -14,7 +14,7 @@ from ..united import united
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# The front advances by so many mean edge lengths at a time; small steps reach few vertices twice.
+# The front advances by this many mean edge lengths at a time; small steps reach few vertices twice.
 _STEP = 2.0
 
 

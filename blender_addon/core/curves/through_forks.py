@@ -92,7 +92,7 @@ def _direction(
 
 
 def _walked(count: int, partner: dict[int, int]) -> list[Way]:
-    """Return the ways of so many wires, of which some ends are joined to others."""
+    """Return the ways of a number of wires, of which some ends are joined to others."""
     used = [False] * count
     open_ends = [end for end in range(2 * count) if end not in partner]
     found = []

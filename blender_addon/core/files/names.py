@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import TextIO
 
-LONGEST = 255  # a name may have at most so many bytes in the usual file systems
+LONGEST = 255  # a name may have at most this many bytes in the usual file systems
 
 
 def shown(text: str, stream: TextIO | None = None) -> str:

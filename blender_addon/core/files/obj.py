@@ -13,7 +13,7 @@ from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_text
 
-_MOST = 1 << 31  # a file can have at most so many points
+_MOST = 1 << 31  # a file can have at most this many points
 
 
 def read_obj(path: str | os.PathLike) -> ImportedPoints:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _NOTICED = 0.05  # this share of the spacing is noticed; noise may be up to a third of the spacing
-_SAMPLE = 16  # the spacing is measured at so many points
+_SAMPLE = 16  # the spacing is measured at this many points
 
 
 def rounding_warning(points: NDArray[np.float64]) -> str | None:

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-CHUNK = 1 << 16  # so many rows are formatted at once, which bounds the memory of one write
+CHUNK = 1 << 16  # this many rows are formatted at once, which bounds the memory of one write
 
 
 def write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:

@@ -21,9 +21,7 @@ from .text import open_file
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_HEADER = (
-    84  # the triangles of a binary file begin after so many bytes; the last four give their number
-)
+_HEADER = 84  # the triangles of a binary file begin after this many bytes; the last four give their number
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
 _IS_TEXT = re.compile(rb"(?i)\b(?:solid|facet)\b")
 _VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")

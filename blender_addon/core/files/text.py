@@ -24,7 +24,7 @@ from ..errors import ReadError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 17  # so many characters are parsed at once; they are few, to stay in the cache
+_CHUNK = 1 << 17  # this many characters are parsed at once; they are few, to stay in the cache
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # this is the mark of UTF-8
 _COMMENT = re.compile(r"(?:#|//).*")
 _BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # bytes.split() splits at these

@@ -31,7 +31,7 @@ from .write_parts import write_csv
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 16  # so many rows are formatted at once, which bounds the memory of one write
+_CHUNK = 1 << 16  # this many rows are formatted at once, which bounds the memory of one write
 
 
 @dataclass(frozen=True)

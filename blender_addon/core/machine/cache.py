@@ -76,14 +76,14 @@ class AnalysisCache:
     Parameters
     ----------
     room : int
-        All kept analyses together may take so many bytes.
+        All kept analyses together may take this many bytes.
     """
 
     def __init__(self, room: int) -> None:
         self._room = room
         self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
         self._lock = threading.Lock()
-        self.analyses = 0  # so many were computed since Blender started
+        self.analyses = 0  # this many were computed since Blender started
 
     def get(self, key: str) -> Any | None:
         with self._lock:

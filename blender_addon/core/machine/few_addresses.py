@@ -16,7 +16,7 @@ _OF_OPENBLAS = 130 << 20  # bytes of its buffer for a product of matrices, and w
 
 
 def are_few() -> bool:
-    """Return whether this process may map only so many addresses."""
+    """Return whether this process may map a limited number of addresses only."""
     if sys.platform != "linux":
         return False
     import resource  # Windows has none

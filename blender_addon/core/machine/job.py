@@ -107,7 +107,7 @@ class Job:
         return f"{self.name}, {self.stage}, {100 * self.fraction:.0f} %"
 
     def wait(self, seconds: float) -> bool:
-        """Wait at most so many seconds, and return whether the job is done.
+        """Wait at most this many seconds, and return whether the job is done.
 
         It does not join the thread: after a Ctrl-C in `Thread.join` Python 3.11 believes that the thread ended.
         """

@@ -15,8 +15,8 @@ from .free_memory import free_memory
 
 OBJECT = "object"  # the output is an object in Blender and not a file
 CURVE = "curve"  # the output is the curve of a level, which is small in every format
-_MOST = 1 << 28  # one analysis can have at most so many points
-# A number of points that follows from the free memory keeps so many binary digits, so that small changes of the free
+_MOST = 1 << 28  # one analysis can have at most this many points
+# A number of points that follows from the free memory keeps this many binary digits, so that small changes of the free
 # memory give the same points.
 _DIGITS = 4
 
@@ -81,11 +81,11 @@ class MemoryLimit(Options):
         return replace(self, use=replace(self.use or Use(), **parts))
 
     def needed(self, points: int) -> int:
-        """Return roughly how many bytes so many points need at the peak."""
+        """Return roughly how many bytes this many points need at the peak."""
         return memory_needed(points, self.use)
 
     def check(self, points: int) -> None:
-        """Check that so many points can be analysed; call it before the analysis.
+        """Check that this many points can be analysed; call it before the analysis.
 
         Raises
         ------
@@ -149,7 +149,7 @@ _AT_PEAK = {  # {faces: {side: {output: bytes}}}
 
 
 def memory_needed(points: int, use: Use | None = None) -> int:
-    """Return roughly how many bytes so many points need at the peak of their analysis and its use."""
+    """Return roughly how many bytes this many points need at the peak of their analysis and its use."""
     if use is not None:
         peaks = _peaks(use)
         crisp = points * _OF_CRISP + use.triangles * _OF_TRIANGLE if use.triangles else 0

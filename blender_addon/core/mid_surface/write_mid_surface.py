@@ -2,7 +2,7 @@
 """This module writes middle surfaces as `.inp` for CalculiX, and as `.obj`, `.ply` and `.stl`
 (docs/formats.md).
 
-`.stl` has no place for thickness, so a `.csv` of the same name lies beside it. A file appears whole or not at all.
+`.stl` has no place for thickness, so a `.csv` of the same name lies next to it. A file appears whole or not at all.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from .thick_faces import ThickFaces
 
-_DIGITS = 6  # thicknesses that agree in so many digits are one section
+_DIGITS = 6  # thicknesses that agree in this many digits are one section
 _PER_LINE = 8
 _LEAST_SINE = 0.2  # at the corners of an element with four; others are two triangles
 
@@ -41,7 +41,7 @@ def export_mid_surface(
     ----------
     found : MidSurface
     path : path of the file; its folder must exist. A file of that name is replaced.
-        Faces that no sheet stands for, if they were kept, go to a file beside it whose name ends with `_thick.stl`.
+        Faces that no sheet stands for, if they were kept, go to a file next to it whose name ends with `_thick.stl`.
     frame : (4, 4) float64, optional
         From the vertices to the world.
 
@@ -75,7 +75,7 @@ def _write_thick(thick: ThickFaces, path: Path, frame: NDArray[np.float64] | Non
 
 
 def thick_path(path: Path) -> Path:
-    """Return the file beside a middle surface for the faces that no sheet stands for."""
+    """Return the file next to a middle surface for the faces that no sheet stands for."""
     return path.with_name(f"{path.stem}_thick.stl")
 
 

@@ -32,7 +32,7 @@ class Axis(Product):
     triangles : bool
         Write triangles in text.
     vertices : int
-        An axis is reduced to at most so many vertices; 0 keeps all.
+        An axis is reduced to at most this many vertices; 0 keeps all.
     """
 
     triangles: bool = False

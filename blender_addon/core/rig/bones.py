@@ -3,7 +3,7 @@
 
 The root bone leads from the pelvis along the spine to the rim of the ball there. A limb starts where it leaves the ball
 of its fork, as a thigh at the hip; what lies within the ball follows the bone that ends there. Of the chains at a fork,
-one goes on from that bone directly, as a neck from a spine.
+one continues from that bone directly, as a neck from a spine.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from .sides import Sides
     from .tree import Chain
 
-_HIPS = 0.75  # the pelvis is at most so many radii above the place between the hips
-_BEFORE = 0.5  # a limb has what lies so many radii before its head, so that its skin bends evenly on both sides
+_HIPS = 0.75  # the pelvis is at most this many radii above the place between the hips
+_BEFORE = 0.5  # a limb has what lies this many radii before its head, so that its skin bends evenly on both sides
 _LEAST = 3  # bones of a limb, so that it can be curled, as a finger
-_TRIED = 24  # so many places are tried for the start of a limb, from the rim of the ball inwards
+_TRIED = 24  # this many places are tried for the start of a limb, from the rim of the ball inwards
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +103,9 @@ class Body:
     tree : list of Chain
     sides : Sides
     goes_on : list of int
-        The chain that goes on from the end of each chain, or -1.
+        The chain that continues from the end of each chain, or -1.
     spine : int
-        The chain that goes on from the root bone, or -1: all leave it to the side.
+        The chain that continues from the root bone, or -1: all leave it to the side.
     bones : list of list of int
         The bones along each chain; there are none along a chain that is shorter than the balls on it. The root bone is
         the first one along the spine.
@@ -131,7 +131,7 @@ def bones_of(
     skeleton : Skeleton
         Points without a branch get no bone.
     per_limb : int
-        The number of bones along each limb, where there is room for so many; 0 for as many as it needs.
+        The number of bones along each limb, where there is room for them; 0 for as many as it needs.
     flats : (b, 3) float64, optional
         The normal of the sheet in each branch, or 0.
     """
@@ -316,7 +316,7 @@ def _started_at(chain: Chain, place: NDArray[np.float64]) -> Chain:
 
 
 def _goes_on(tree: list[Chain], sides: Sides, parent: int) -> int:
-    """Return the chain that goes on at the end of another one, or at the root (-1); it is -1 if there is none.
+    """Return the chain that continues at the end of another one, or at the root (-1); it is -1 if there is none.
 
     It lies in the plane between the sides, or else leads to other forks, or else carries the largest volume.
     """
@@ -362,7 +362,7 @@ def _room(chain: Chain, begin: float | None, count: int) -> int:
 def _begin(chain: Chain, goes_on: bool) -> float | None:
     """Return the length after which the first bone of a chain starts, or None if there is no room for a bone.
 
-    It starts where it leaves the ball of its fork, or so much before that it is as long as the balls at its ends.
+    It starts where it leaves the ball of its fork, or this much before that it is as long as the balls at its ends.
     """
     rim = 0.0 if goes_on else chain.rim
     marks = np.linspace(rim, 0.0, _TRIED + 1)

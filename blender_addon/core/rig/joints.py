@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joints are placed along a chain so that its bones follow it best.
 
-Of all ways to lay so many bones between two ends, the one with the least sum of squares is taken: of deviations,
+Of all ways to lay a number of bones between two ends, the one with the least sum of squares is taken: of deviations,
 measured in the radius there, and of lengths, so that a straight chain gets bones of even length. No bone is shorter
 than the balls at its ends.
 """
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from .tree import Chain
 
 ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
-LONG = 10.0  # a bone is at most so many mean radii long, as forearms are
+LONG = 10.0  # a bone is at most this many mean radii long, as forearms are
 _THIN = 0.5  # a ball counts as no thinner than this share of the mean of the chain
 _STEPS, _MOST_STEPS = (
     48,
     192,
-)  # joints are looked for at so many steps; 2, 3, 4, 6 and 8 divide these
+)  # joints are looked for at this many steps; 2, 3, 4, 6 and 8 divide these
 
 
 def joints_of(chain: Chain, begin: float, count: int = 0) -> NDArray[np.float64]:
@@ -85,7 +85,7 @@ def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDA
 
 
 def _cheapest(cost: NDArray[np.float64], bones: int) -> NDArray[np.int64] | None:
-    """Return the joints of so many bones, (bones + 1,), that cost least, or None if there is no room for them."""
+    """Return the joints of a number of bones, (bones + 1,), that cost least, or None if there is no room for them."""
     count = len(cost)
     later = np.triu(np.ones(cost.shape, bool), 1)
     cost = np.where(later, np.round(cost, 9), np.inf)  # rounded, so that mirror images are alike

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones are named by what the shape tells of their chains, in order from head to tail and from the root outwards.
+"""Bones are named by what the shape shows of their chains, in order from head to tail and from the root outwards.
 
 Where a body has two sides, its root is called pelvis if limbs go out on both; the bones between the sides are called
 spine, head and tail. The limbs of a pair that leaves the pelvis are legs, and so are those that reach at least half as

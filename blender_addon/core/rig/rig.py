@@ -74,7 +74,7 @@ def compute_rig(
     Parameters
     ----------
     per_limb : int
-        The number of bones along each limb, where there is room for so many; 0 for as many as it needs.
+        The number of bones along each limb, where there is room for them; 0 for as many as it needs.
 
     Raises
     ------

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .tree import Chain
 
 _BENT = 0.25  # a limb is bent if it leaves a straight line by this share of its mean radius
-_FLAT = 0.75  # a limb is flat if it is so many times as thick as wide, or less
+_FLAT = 0.75  # a limb is flat if it is this many times as thick as wide, or less
 _ALONG = 0.1  # the sine of the angle below which a bone counts as parallel to an axis
 
 

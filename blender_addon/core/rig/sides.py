@@ -24,9 +24,9 @@ _ALIKE = 1.6  # the lengths of two like limbs outside their forks, and the mean 
 _STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork
 _WITHIN = 0.5  # a chain lies in the plane if it is, in the mean, within this share of its radius
 _ENOUGH = 0.5  # this share of the length that lies aside of the plane belongs to pairs
-_STRAIGHT = 0.5  # the weight of starts that are off, in radii, beside limbs without a partner
+_STRAIGHT = 0.5  # the weight of starts that are off, in radii, against limbs without a partner
 _AS_GOOD = 0.1  # the plane across an axis is taken if it costs so little more than the best one
-_ASLANT = 0.5  # a plane across no axis may cost so much of what others may
+_ASLANT = 0.5  # a plane across no axis may cost this much of what others may
 _TINY = float(np.finfo(float).tiny)
 
 

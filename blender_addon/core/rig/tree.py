@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from ..skeleton.skeleton import Skeleton
 
 
-_FAR = 4.0  # chains are compared up to so many radii from their fork
-_SAMPLES = 65  # at so many places
+_FAR = 4.0  # chains are compared up to this many radii from their fork
+_SAMPLES = 65  # at this many places
 
 
 @dataclass(frozen=True, eq=False)

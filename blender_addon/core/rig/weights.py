@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from ..skeleton.parts import Places
     from .bones import Bones
 
-MOST = 4  # a vertex follows at most so many bones
+MOST = 4  # a vertex follows at most this many bones
 _DIFFUSED = 0.5  # weights diffuse so far, as a share of the radius of the limb
 _SHORT = 1e-6  # the square of an edge counts as no less than this share of the mean
-_CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved for up to this error, in at most so many steps
+_CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved up to this error, in at most so many steps
 
 
 def axis_weights(

@@ -38,7 +38,7 @@ def find_bare(
     spacing: float,
     gaps: bool = False,
 ) -> tuple[NDArray[np.bool_], int]:
-    """(n,) mark the samples that are taken, and count those left out because the surface bounds nothing there.
+    """Mark the samples that are taken, (n,), and count those left out because the surface bounds nothing there.
 
     Samples in gaps too narrow for them are not taken either, but do not count.
 
@@ -73,7 +73,7 @@ def _outside_clefts(
     spacing: float,
     buried: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
-    """(n,) mark the samples that are neither buried nor in clefts next to buried ones."""
+    """Mark the samples that are neither buried nor in clefts next to buried ones, (n,)."""
     with native.own_errors() as module:
         beside = np.flatnonzero(near(feet, feet[buried], _BESIDE * spacing))
         outward = feet[beside] + _CLEFT * spacing * normals[beside]
@@ -115,7 +115,7 @@ def outer_share(shape: Shape, spacing: float) -> float:
 def sides_of_faces(
     shape: Shape, rows: NDArray[np.intp], spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
-    """(k,) twice the areas of some faces, whether they bound nothing, and whether because they lie in the solid.
+    """Return (k,) twice the areas of some faces, whether they bound nothing, and whether because they lie in the solid.
 
     `spacing` is as in `bounding_share`.
     """
@@ -156,7 +156,7 @@ def _are_buried(
 def on_flat_faces(
     shape: Shape, found: Any, faces: NDArray[np.int32], spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
+    """Return (n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
 
     Samples may follow the smooth surface, but `_medial.buried` tests the flat faces. Places on edges and corners are
     moved towards the middle of the face, by a tenth of the spacing or of the distance to the middle: on the edge itself

@@ -211,7 +211,7 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
 
 
 def _by_open_faces(request: Request) -> bool:
-    """Whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
+    """Return whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
     shape, wanted = request.shape, request.settings.sides
     given = shape.normals is not None and bool(shape.normals.any())
     return wanted is SidesFrom.AUTOMATIC and request.gaps > 0 and not given
@@ -351,7 +351,7 @@ def _options(shape: Shape, settings: Settings) -> dict[str, Any]:
 
 
 def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:
-    """Whether the axis is missing between walls that are close, and the budget allows to change that."""
+    """Return whether the axis is missing between walls that are close, and the budget allows to change that."""
     walls = samples.walls_to_show
     return (
         walls is not None
@@ -361,7 +361,7 @@ def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:
 
 
 def _is_spent(request: Request, samples: AnalysedSamples) -> bool:
-    """Whether the budget allows no more samples."""
+    """Return whether the budget allows no more samples."""
     return len(samples.points) >= _SPENT * request.settings.budget
 
 

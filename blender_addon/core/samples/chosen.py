@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples that a computation uses, the reasons for the choice, and the computation that goes on from them."""
+"""The samples that a computation uses, the reasons for the choice, and the computation that continues from them."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ class Density:
         return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH
 
     def is_improved_by(self, spacing: float) -> bool:
-        """Whether even samples with this spacing are denser where it matters; in noise they are not."""
+        """Return whether even samples with this spacing are denser where it matters; in noise they are not."""
         area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
         too_wide = (self.epsilon > self.limit) & (self.spacing > _HOLE * spacing)
         return area[too_wide].sum() > DENSE_ENOUGH * area.sum()

@@ -204,7 +204,7 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
 
 
 def _are_of_bent_sheets(shape: Shape) -> tuple[NDArray[np.bool_], bool]:
-    """(m,) mark the faces of bent sheets, and whether these are all that count for something."""
+    """Mark the faces of bent sheets, (m,), and whether these are all that count for something."""
     part, is_open = shape.connected
     found = bent_sheets(shape, part, len(is_open))[part] & (part >= 0)
     return found, bool(found.any() and (found | (part < 0)).all())
@@ -298,7 +298,7 @@ def split(shape: Shape, settings: Settings) -> SplitShape:
 
 
 def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
-    """Whether one connected part is a sheet by itself, wavy or bent."""
+    """Return whether one connected part is a sheet by itself, wavy or bent."""
     if settings.sides is not SidesFrom.AUTOMATIC:
         return False
     read = outward_shape(shape)
@@ -312,7 +312,7 @@ def _open_edges(shape: Shape, settings: Settings) -> int:
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:
-    """Whether faces bound too little of a solid to decide what is inside, as they should."""
+    """Return whether faces bound too little of a solid to decide what is inside, as they should."""
     if settings.sides is not SidesFrom.AUTOMATIC:
         return False
     read = outward_shape(shape)

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from ..shape.shape import Shape
 
 SMOOTHING = 0.02  # of the whole work, as few faces are noisy
-# In spacings: with more noise faces fold over each other, and their normals tell nothing.
+# In spacings: with more noise faces fold over each other, and their normals say nothing.
 _TOO_MUCH = 1.0
 # With fewer triangles, details of a shape that was modelled coarse look like noise.
 _LEAST = 5_000
-# Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than so many times
+# Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than this many times
 # the median, which is at most 2.6 on scans, voxels and noisy meshes. Of designed plates with letters it is 25.
 _UNEVEN = 4.0
 _OF_CUBES = (
@@ -82,7 +82,7 @@ def smooth_faces(
 
 
 def _are_even(shape: Shape) -> bool:
-    """Whether the sides of the triangles are about equally long."""
+    """Return whether the sides of the triangles are about equally long."""
     corners = shape.points[shape.triangles]
     ways = corners - np.roll(corners, 1, axis=1)
     middle, long = np.quantile(np.sqrt(dot(ways, ways)), (0.5, 0.95))
@@ -110,7 +110,7 @@ def _of_size_one(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def _vertex_normals(
     points: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:
-    """(n, 3) sums of the areas of the faces round each vertex, along their normals."""
+    """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     area, corners = cross(b - a, c - a), triangles.ravel()
     sums = [np.bincount(corners, np.repeat(column, 3), len(points)) for column in area.T]

@@ -105,7 +105,7 @@ def report_sampling(
 
 
 def _moved(given: Shape, shape: Shape, chosen: ChosenSamples) -> NDArray[np.float64]:
-    """Return how far each sample was moved; a scan that was thinned afterwards no longer tells."""
+    """Return how far each sample was moved; it is unknown for a scan that was thinned afterwards."""
     count = len(chosen.samples.points)
     if chosen.scan is not None:
         moved = chosen.scan.moved

@@ -93,7 +93,7 @@ def _differs(chosen: ChosenSamples) -> str:
 
 
 def _confirmed_by_faces(chosen: ChosenSamples) -> bool:
-    """Whether rays from the faces found no wall that the samples on them miss.
+    """Return whether rays from the faces found no wall that the samples on them miss.
 
     Near sharp edges every sample is above any epsilon, however right the axis is; so the faces decide where they can.
     """

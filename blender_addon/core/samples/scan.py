@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..shape.shape import Shape
 
 SOME = 0.1  # noise in spacings from which on the axis has flakes
-_TOO_MUCH = 2.5  # noise in spacings beyond which too few points tell the surface
+_TOO_MUCH = 2.5  # noise in spacings beyond which too few points show the surface
 _ALONE = (0.001, 0.1)  # the share of lone points that are outliers; fewer are the tips of a shape
 _FEWEST = 4  # of them
 _LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more
@@ -100,7 +100,7 @@ def prepared(
 ) -> tuple[Shape, Scan | None]:
     """Return a shape whose points lie on smooth surfaces, and the figures; the same shape where nothing is to be done.
 
-    Faces tell more than this measure, so a shape that has any is not measured.
+    Faces say more than this measure, so a shape that has any is not measured.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def _scan(shape: Shape, measure: Any) -> Scan:
 
 
 def _wanted(wanted: Prepare, scan: Scan) -> tuple[bool, bool]:
-    """Whether to move the points, and whether to leave outliers out."""
+    """Return whether to move the points, and whether to leave outliers out."""
     if wanted is Prepare.OFF:
         return False, False
     enough = 0.0 if wanted is Prepare.ALWAYS else SOME
@@ -185,7 +185,7 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
 
 
 def is_noisy(scan: Scan | None) -> bool:
-    """Whether the noise of points is worse than their distances, so that more of them would not help."""
+    """Return whether the noise of points is worse than their distances, so that more of them would not help."""
     return scan is not None and scan.noise > SOME
 
 

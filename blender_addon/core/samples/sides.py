@@ -103,7 +103,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
 def are_sheets(
     shape: Shape, part: NDArray[np.int32], is_open: NDArray[np.bool_], spacing: float
 ) -> NDArray[np.bool_]:
-    """(count,) mark the connected parts that are sheets among all others.
+    """Mark the connected parts that are sheets among all others, (count,).
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def decided(sides: Sides, analysis: Any) -> Sides:
 
 
 def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
-    """Whether the normals of the outermost samples along the coordinate axes point inward on the whole."""
+    """Return whether the normals of the outermost samples along the coordinate axes point inward on the whole."""
     lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
     lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
     low, high = (normals[rows, range(3)] / lengths[rows] for rows in (lowest, highest))
@@ -235,7 +235,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
 
 
 def pole_warnings(analysis: Any, points: NDArray[np.float64]) -> Iterator[str]:
-    """Warn about suspicious properties of the solid that the poles tell.
+    """Warn about suspicious properties of the solid that the poles determine.
 
     It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
 

@@ -101,7 +101,7 @@ def _of_triangles(
 def mean_normals(
     points: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(n, 3) the unit means of the normals of the triangles at each point, weighted by area, and (f, 3) these."""
+    """Return the mean normal of the triangles at each point, (n, 3), of length 1 and by area, and (f, 3) their own."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     faces = cross(b - a, c - a)
     normals = np.empty_like(points)
@@ -112,13 +112,13 @@ def mean_normals(
 
 
 def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3) cross products of rows; NumPy's own function takes several times as long."""
+    """Return cross products of rows, (n, 3); NumPy's own function takes several times as long."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.column_stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
 
 def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3) vectors of length 1; zero vectors stay zero."""
+    """Return vectors of length 1, (n, 3); zero vectors stay zero."""
     lengths = np.linalg.norm(vectors, axis=1)[:, None]
     return vectors / np.where(lengths > 0.0, lengths, 1.0)
 

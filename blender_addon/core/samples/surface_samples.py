@@ -176,28 +176,28 @@ def _of_small_shells(
 
 
 def are_paired(partners: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(n,) mark the samples that have a partner: of two partners one may name the other alone."""
+    """Mark the samples that have a partner, (n,): of two partners one may name the other alone."""
     paired = partners >= 0
     paired[partners[paired]] = True
     return paired
 
 
 def _of_rows(partners: NDArray[np.int32], kept: NDArray[np.bool_]) -> NDArray[np.int32]:
-    """(k,) the partners of the kept samples, counted among these; -1 where a partner was not kept."""
+    """Return the partners of the kept samples, (k,), counted among these; -1 where a partner was not kept."""
     number = np.where(kept, np.cumsum(kept) - 1, -1).astype(np.int32)
     partners = partners[kept]
     return np.where(partners >= 0, number[partners], np.int32(-1))
 
 
 def apart_of(samples: FaceSamples) -> NDArray[np.float64]:
-    """(n,) the wanted distance of neighbours at each sample; where samples close openings, the mean one."""
+    """Return the wanted distance of neighbours at each sample, (n,); where samples close openings, the mean one."""
     apart = np.full(len(samples.points), samples.spacing)
     apart[: len(samples.radius)] = samples.radius / _DISC
     return apart
 
 
 def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(n,) mark the samples in the interior of faces, or all samples if those are a minority.
+    """Mark the samples in the interior of faces, (n,), or all samples if those are a minority.
 
     On an edge, the opposite wall depends on which of its faces one looks from.
     """
@@ -207,7 +207,7 @@ def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
 
 
 def _are_on_edges(kinds: NDArray[np.int32], gaps: int, closed: bool) -> NDArray[np.bool_]:
-    """(n,) mark the samples of edges and corners of the solid, where the feature size is 0.
+    """Mark the samples of edges and corners of the solid, (n,), where the feature size is 0.
 
     Where an opening is closed its rim is an edge of the solid. Corners of a mesh that stays open do not count: they
     may belong to an opening, where the shape may be thick.

@@ -83,7 +83,7 @@ def fewer_samples(
 
 
 def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
-    """(k,) ascending rows: the first point in each cell of the finest grid that leaves at most `most` points.
+    """Return ascending rows, (k,): the first point in each cell of the finest grid that leaves at most `most` points.
 
     Every point is nearer to one of them than the diagonal of a cell.
     """

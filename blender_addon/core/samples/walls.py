@@ -118,7 +118,7 @@ class Walls(Places):
         return float(np.median(self.distance[self._are_missed]))
 
     def wanted(self, finest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k, 3) places between close walls, and (k,) the spacings that would show the axis there.
+        """Return (k, 3) places between close walls, and (k,) the spacings that would show the axis there.
 
         Walls that would need spacings far below `finest` are left out.
         """
@@ -133,7 +133,7 @@ class Walls(Places):
         return self.points[close], np.maximum(wanted[close], finest)
 
     def are_reached_by(self, budget: int, area: float) -> bool:
-        """Whether a budget of samples, all of them spent on missed walls, would show most of these.
+        """Return whether a budget of samples, all of them spent on missed walls, would show most of these.
 
         Parameters
         ----------

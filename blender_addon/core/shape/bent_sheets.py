@@ -27,7 +27,7 @@ _OFF = 1e-6  # the distance from its faces at which the two sides of a part are 
 
 
 def bent_sheets(shape: Shape, part: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
-    """(count,) mark the parts that are sheets and bound nothing together with others.
+    """Mark the parts that are sheets and bound nothing together with others, (count,).
 
     Parameters
     ----------

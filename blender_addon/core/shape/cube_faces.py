@@ -22,7 +22,7 @@ _TRIED = 8  # triangles for the first direction: any of them may be grass
 
 
 def are_cubes(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> bool:
-    """Whether nearly all of the area looks along three directions that are perpendicular to each other.
+    """Return whether nearly all of the area looks along three directions that are perpendicular to each other.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
-    """(n,) the number of the sample that each row is.
+    """Return the number of the sample that each row is, (n,).
 
     The module merges rows that differ by next to nothing, too, so a row may equal no sample: it is the nearest one.
 
@@ -155,7 +155,7 @@ def _cells(
 
 
 def _strides(size: NDArray[np.int64]) -> NDArray[np.int64]:
-    """(3,) the steps between the numbers of neighbouring cells.
+    """Return the steps between the numbers of neighbouring cells, (3,).
 
     Very many cells overflow silently: then cells that are far apart may have the same number.
     """

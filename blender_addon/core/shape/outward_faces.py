@@ -61,7 +61,7 @@ def _check_corners(shape: Shape) -> None:
 
 
 def check_some_left(shape: Shape) -> None:
-    """Raise DegenerateInputError where every face counts for nothing, so none can tell what is inside."""
+    """Raise DegenerateInputError where every face counts for nothing, so none can decide what is inside."""
     if are_left_out(shape).all():
         raise DegenerateInputError(
             f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
@@ -82,7 +82,7 @@ def reading_counts(shape: Shape) -> dict[str, int]:
 
 
 def are_left_out(shape: Shape) -> NDArray[np.bool_]:
-    """(m,) the triangles that count for nothing."""
+    """Return the triangles that count for nothing, (m,)."""
     if shape.reading is None:
         return np.zeros(len(shape.triangles), bool)
     return shape.reading >= REPEATED

@@ -23,7 +23,7 @@ def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
     """Return a shape whose frame leads back from the centre of its box, and where this centre was.
 
     The shape stays where it is if its coordinates were rounded to float32: what that costs depends on their distance
-    from the origin (`Shape.rounding`), and the arithmetic in 64 bits loses nothing beside it.
+    from the origin (`Shape.rounding`), and the arithmetic in 64 bits loses nothing compared with it.
     """
     origin = own_origin(shape.points)
     if not origin.any():
@@ -35,7 +35,7 @@ def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
 
 
 def own_origin(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3,) the centre of the box along each axis where it may be subtracted exactly, 0 along others.
+    """Return the centre of the box along each axis where it may be subtracted exactly, (3,), 0 along others.
 
     That is where all coordinates are within a factor of two (Sterbenz); elsewhere the box is no farther away than its
     size. It is 0 for coordinates that were rounded to float32, and for those that are not finite.

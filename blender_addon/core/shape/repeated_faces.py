@@ -44,7 +44,7 @@ def repeats_of_bodies(
 
 
 def _keys(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
-    """(m,) a number for the corners of each face, in any order; equal coordinates are one corner."""
+    """Return a number for the corners of each face, (m,), in any order; equal coordinates are one corner."""
     bits = np.ascontiguousarray(points + 0.0).view(np.uint64)  # -0.0 is 0.0
     corner = np.zeros(len(points), np.uint64)
     for axis in range(3):

@@ -69,7 +69,7 @@ class Shape:
     single: bool | None = None
 
     def has_vertices(self, count: int) -> bool:
-        """Whether the points may be `count` vertices of an object, as those of a wrap never are."""
+        """Return whether the points may be `count` vertices of an object, as those of a wrap never are."""
         return len(self.points) == count and self.offset == 0.0
 
     @cached_property

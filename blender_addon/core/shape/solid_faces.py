@@ -87,7 +87,7 @@ def triangles_of_places(shape: Shape, settings: Settings) -> int:
 
 
 def _face_of_vertex(shape: Shape) -> NDArray[np.int32]:
-    """(n,) the first triangle at each vertex, or -1."""
+    """Return the first triangle at each vertex, (n,), or -1."""
     face = np.full(len(shape.points), -1, np.int32)
     kept = np.flatnonzero(~are_left_out(shape)).astype(np.int32)
     rows = np.repeat(kept, 3)

@@ -15,7 +15,7 @@ _LOOKED_AT = 20_000
 
 
 def some_of(count: int) -> NDArray[np.intp]:
-    """(k,) rows of a list of `count` items, evenly spread; all of them where they are few."""
+    """Return rows of a list of `count` items, (k,), evenly spread; all of them where they are few."""
     return np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
 
 

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from .compute import Skeletonization
     from .skeleton import Skeleton
 
-_APART = 4  # a cross-section at every so many places of the smooth line, which is half a radius
+_APART = 4  # one of this many places of the smooth line has a cross-section: every half radius
 _MOST_SECTIONS = 64  # of a branch
-_BENT = 0.05  # where a line bends by less than so many radians within a radius, torsion is noise
-_ROOM = 4.0  # faces nearer to a branch than so many radii are cut first
+_BENT = 0.05  # where a line bends by less than this many radians within a radius, torsion is noise
+_ROOM = 4.0  # faces nearer to a branch than this many radii are cut first
 MEASURES = ("curvature", "torsion", "area", "perimeter")
 
 
@@ -65,7 +65,7 @@ class Branches:
     start, end : (b,) int32
         Rows of the points of the skeleton.
     start_degree, end_degree : (b,) int32
-        So many branches end there: 1 at a tip, 3 or more at a fork, 2 where a loop without a fork closes.
+        This many branches end there: 1 at a tip, 3 or more at a fork, 2 where a loop without a fork closes.
     on_loop : (b,) bool
         A way leads from the start to the end without the branch.
     length : (b,) float64
@@ -220,7 +220,7 @@ def _line_figures(
     line: SmoothLine | None,
     closed: bool,
 ) -> dict[str, float]:
-    """Return what the points of a branch and its smooth line tell."""
+    """Return the measures that the points of a branch and its smooth line give."""
     marks = marks_of(points)
     distance = length_of(points[-1] - points[0])
     length = float(marks[-1])
@@ -241,7 +241,7 @@ def _line_figures(
 def _measure_bends(
     line: SmoothLine | None, curve: Skeleton, name: int, closed: bool, faces: Faces | None
 ) -> tuple[dict[str, float], Profile]:
-    """Return what the smooth line of a branch and the faces tell, and the profile."""
+    """Return the measures that the smooth line of a branch and the faces give, and the profile."""
     if line is None:
         blank = Profile(np.zeros(0), np.zeros((0, len(MEASURES))))
         return {**_bend_figures(np.zeros((0, 3))), **_section_figures(np.zeros((0, 2)))}, blank

@@ -75,7 +75,7 @@ def keep_inside(net: Net, depth: Depth) -> int:
     Returns
     -------
     outside : int
-        So many edges still leave it: no ball between their ends overlaps those at both.
+        This many edges still leave it: no ball between their ends overlaps those at both.
     """
     edges = [(name, *pair) for name, chain in net.branches.items() for pair in pairwise(chain)]
     lost: list[tuple[int, int, int]] = []

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from ..curves.net import Net
 
-_NEAR = 2.0  # an end less than so many radii from the tip of its limb means the tip
+_NEAR = 2.0  # an end less than this many radii from the tip of its limb means the tip
 
 
 def join_ends(net: Net, rows: NDArray[np.int64]) -> list[int]:

@@ -67,7 +67,7 @@ class Skeletonization(OfChosenSamples):
     mirrored : bool
         Both halves were replaced by their mean.
     outside : int
-        So many edges of the skeleton leave the solid.
+        This many edges of the skeleton leave the solid.
     chosen : ChosenSamples
         The samples that were analysed, the reason for them, and their density.
     warnings : tuple of str

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..curves.net import Net
 
 _FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball
-_MOVED = 1.0  # a fork moves by at most so many radii
+_MOVED = 1.0  # a fork moves by at most this many radii
 _ROOM = 0.6  # the ball at the new place must have at least this share of the radius
 _STAY = 0.05  # the old place has this weight; each limb has weight 1
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from ..curves.net import Net
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
-_MOVED = 0.5  # a point moves by at most so many radii at once, and so stays in the ball around it
-_AHEAD = 1e-3  # in so many radii the distance is looked at to learn where the nearest place is
+_MOVED = 0.5  # a point moves by at most this many radii at once, and so stays in the ball around it
+_AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is
 _AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
 _HALVED = 10  # so often the range of a move is halved
 _ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides

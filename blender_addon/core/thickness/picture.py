@@ -87,7 +87,7 @@ def _part(name: bytes, data: bytes) -> bytes:
 
 
 def _axes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3, 3) the directions to the right, upwards and to the eye."""
+    """Return the directions to the right, (3, 3), upwards and to the eye."""
     eye = direction / length_of(direction)
     up = np.array([0.0, 1.0, 0.0]) if abs(eye[2]) > 0.999 else np.array([0.0, 0.0, 1.0])
     right = np.cross(up, eye)
@@ -126,7 +126,7 @@ def _chunks(
 
 
 def _weights(count: int) -> NDArray[np.float64]:
-    """(k, 3) barycentric coordinates of a grid with `count` steps along each edge."""
+    """Return barycentric coordinates of a grid with `count` steps along each edge, (k, 3)."""
     i, j = np.mgrid[: count + 1, : count + 1]
     inside = i + j <= count
     i, j = i[inside], j[inside]

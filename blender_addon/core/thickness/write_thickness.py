@@ -31,7 +31,7 @@ from .thin_parts import ThinParts
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 16  # so many rows are formatted at once
+_CHUNK = 1 << 16  # this many rows are formatted at once
 
 
 def export_thickness(
@@ -135,7 +135,7 @@ def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: 
 
 
 def _beside_vertices(found: Measurement) -> NDArray[np.bool_]:
-    """(n,) whether each point of the measured surface is no vertex of the shape."""
+    """Return whether each point of the measured surface is no vertex of the shape, (n,)."""
     count = len(found.shape.points)
     place = same_place(np.concatenate((found.shape.points, found.points)))
     return ~np.isin(place[count:], place[:count])

@@ -62,7 +62,7 @@ class MedialAnalysis {
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
 
   // Returns all levels of the inner axis, which no longer need the analysis. If the solid is known
-  // to consist of so many bodies, parts without any ball larger than the hole between the samples
+  // to consist of this many bodies, parts without any ball larger than the hole between the samples
   // at them are left out, those with few cells first, until no more parts than bodies are left.
   // With faces, sheets reach the sharp convex edges, and with `places`, which take long, vertices
   // also have crisp places. Partners

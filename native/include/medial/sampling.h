@@ -24,7 +24,7 @@ struct SamplingOptions {
   std::span<const Edge> sharp_edges = {};    // rows of vertices
   bool smooth = false;
   bool keep_vertices = false;
-  int mirrored_rows = 2;  // beside each sharp edge, on either side
+  int mirrored_rows = 2;  // next to each sharp edge, on either side
   bool pairs = false;     // between close walls samples lie opposite each other
   uint64_t seed = 0;
 };
@@ -58,7 +58,7 @@ struct SamplePlaces {
   std::span<const int32_t> triangle;  // input row, -1 for samples that close openings
 };
 
-// Patches are the parts into which the sharp convex edges divide a surface: one patch goes on
+// Patches are the parts into which the sharp convex edges divide a surface: one patch continues
 // across reflex edges, and round the end of a crease.
 struct SurfacePatches {
   // (m) in the order of their first triangles; -1 for triangles that are repeated or have a corner

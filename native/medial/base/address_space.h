@@ -9,7 +9,7 @@ namespace medial {
 
 class AddressSpace {
  public:
-  // The range is empty if the system lacks so many consecutive addresses.
+  // The range is empty if the system lacks this many consecutive addresses.
   explicit AddressSpace(size_t bytes);
   ~AddressSpace();
   AddressSpace(const AddressSpace&) = delete;

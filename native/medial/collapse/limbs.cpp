@@ -4,15 +4,15 @@
 namespace medial {
 namespace {
 
-// share of the radius; a ball that sticks out by so much less counts as equal
+// share of the radius; a ball that sticks out by this much less counts as equal
 constexpr double kAlike = 0.05;
-// if a branch sticks out so many times farther than its tip, that is not the limb's tip
+// if a branch sticks out this many times farther than its tip, that is not the limb's tip
 constexpr double kLost = 4;
 
-// These are branches by elongation: where branches meet, the one with the largest value goes on.
+// These are branches by elongation: where branches meet, the one with the largest value continues.
 struct Branches {
   Array<double> length;  // per vertex: the length of its branch
-  Array<int32_t> elder;  // per vertex: the vertex before it on the branch that goes on; or -1
+  Array<int32_t> elder;  // per vertex: the vertex before it on the branch that continues; or -1
 };
 
 Branches by_length(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
@@ -75,7 +75,7 @@ Array<double> farthest_out(const InnerComplex& complex, const Collapse& collapse
 }
 
 // Computes the branches by protrusion. A branch is identified by its tip; where branches meet, the
-// one whose tip's ball sticks out most goes on.
+// one whose tip's ball sticks out most continues.
 class Protrusion {
  public:
   Protrusion(const InnerComplex& complex, const Run& run)

@@ -20,7 +20,7 @@ constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
 constexpr int64_t kMostRefined = 1024;
 // This share of the balls inside bounds how far the surface is from them.
 constexpr double kBounding = 0.9;
-// The places inside at which distances are bounded, too, are so many steps of the lattice apart.
+// The places inside at which distances are bounded, too, are this many steps of the lattice apart.
 constexpr double kCoarse = 2;
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {

@@ -21,7 +21,7 @@ struct Capsule {
 };
 
 // Returns an upper bound, close to the least one, of how far the balls of a capsule reach out of
-// the solid: of radius less depth. It is negative if the capsule could grow by so much. Balls
+// the solid: of radius less depth. It is negative if the capsule could grow by this much. Balls
 // between the places that are looked at are bounded, because depths change no faster than places.
 double reach_out(const Capsule& capsule, const SolidDepth& depth);
 

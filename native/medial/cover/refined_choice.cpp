@@ -11,7 +11,7 @@
 namespace medial {
 namespace {
 
-// Bounds are searched at so many places, or so many for each ball.
+// Bounds are searched at this many places, or this many for each ball.
 constexpr double kFine = 0.5;  // steps of the lattice: a search for bounds ends there
 constexpr int64_t kPlaces = 32768, kPlacesOfBall = 40;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the parts of the inner cells that are too small for the samples to determine their shape:
-// pockets, which only the sampling has cut off, in wedges beside sharp edges and at the rims of
+// pockets, which only the sampling has cut off, in wedges next to sharp edges and at the rims of
 // openings; and crumbs, which may be small bodies.
 #pragma once
 

@@ -163,7 +163,7 @@ class Collapser {
     int32_t kept = -1;  // the end that stays; -1 if either may
   };
 
-  // The lighter of both vertices tells, so that no small thing is lost in a large sheet.
+  // The lighter of both vertices decides, so that no small thing is lost in a large sheet.
   bool is_allowed(int32_t a, int32_t b, const Target& target) const {
     if (allowed_.most == HUGE_VAL) return target.cost < HUGE_VAL;
     const double weight = std::min(quadrics_[a].weight(), quadrics_[b].weight());

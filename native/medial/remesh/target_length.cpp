@@ -9,7 +9,7 @@
 namespace medial {
 namespace {
 
-// A place of a rim to which no vertex is nearest has the width of what is so many edges away.
+// A place of a rim to which no vertex is nearest has the width of what is this many edges away.
 constexpr int kRings = 8;
 
 struct Reached {
@@ -43,7 +43,7 @@ void spread(const SheetComplex& mesh, std::span<const Vec3> position, double slo
   }
 }
 
-// Raises the values of vertices to the largest one beside them.
+// Raises the values of vertices to the largest one next to them.
 void raise_to_neighbours(const SheetComplex& mesh, std::vector<double>& values) {
   std::vector<double> raised(values);
   for (int32_t v = 0; v < mesh.vertices(); ++v) {

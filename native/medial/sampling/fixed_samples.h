@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The samples that are placed before the blue noise: at corners, along creases, and beside them.
+// The samples that are placed before the blue noise: at corners, along creases, and next to them.
 #pragma once
 
 #include <medial/sampling.h>

@@ -6,8 +6,8 @@
 namespace medial {
 namespace {
 
-// A crease goes on where a shared normal would bend an edge by more than the height of a triangle
-// beside it, along an edge that leaves all others at most so much of that.
+// A crease continues where a shared normal would bend an edge by more than the height of a triangle
+// next to it, along an edge that leaves all others at most this much of that.
 constexpr double kRise = 1, kStraight = 0.2;
 // A mitre ends where its turn falls below a tenth from one edge to the next, as on a flat face.
 constexpr double kFlat = 0.1;
@@ -106,7 +106,7 @@ class Mitres {
     }
     return most;
   }
-  // Returns the distance between the normals beside an edge, negative where it is concave.
+  // Returns the distance between the normals next to an edge, negative where it is concave.
   double turn(const MeshEdge& edge) const {
     const auto& [s, t] = edge.triangles;
     const Triangle& beyond = mesh_.triangles[t];

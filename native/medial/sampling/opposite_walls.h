@@ -46,7 +46,7 @@ class OppositeWalls {
 
   // Returns where the ball that touches the surface at a place from inside, or from outside,
   // touches the opposite wall. Only triangles within 60 degrees of the opposite direction count, so
-  // the ball ignores walls beside, and the sides of acute grooves and edges are opposite walls.
+  // the ball ignores walls aside, and the sides of acute grooves and edges are opposite walls.
   // There is nothing if the diameter of the ball is above `reach`, or if the ball touches the end
   // of a wall at a slant.
   std::optional<WallPlace> operator()(const SurfacePlace& from, double reach,

@@ -16,7 +16,7 @@ constexpr int kMostReflections = 3;      // from crease to crease
 constexpr double kOneDirection = 0.866;  // faces of a corner within 30 degrees look one way
 constexpr double kAcute = -0.2;          // the cosine between the normals of an acute edge
 constexpr double kRimThickness = 0.5;    // of the radius, at most
-constexpr double kRim = 2;               // thicknesses from an edge to the row beside it
+constexpr double kRim = 2;               // thicknesses from an edge to the row next to it
 
 double tolerance_of(const FixedSample& sample, double thickness) {
   return kMoved * std::min(thickness, sample.radius) * std::min(1.0, thickness / sample.radius);
@@ -285,7 +285,7 @@ int32_t PairedSamples::add_partner(const FixedSample& found, double tolerance, T
   return id;
 }
 
-// --- rows beside creases
+// --- rows next to creases
 
 void PairedSamples::add_rims() {
   const auto on_creases = static_cast<int32_t>(samples_.size());

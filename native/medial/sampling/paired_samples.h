@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places the samples on creases and beside them together with their partners on opposite walls.
+// Places the samples on creases and next to them together with their partners on opposite walls.
 // Wherever walls are close, the samples of one wall are then at the places of the other one, so
 // that their Voronoi facets are pieces of the sheet between the walls, however close these are. The
 // same holds across gaps: there the facets keep both sides apart.

@@ -273,7 +273,7 @@ std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
   return disks;
 }
 
-// Puts all samples on creases and beside them in order, those between close walls in pairs.
+// Puts all samples on creases and next to them in order, those between close walls in pairs.
 std::vector<FixedSample> paired(const Model& model, int rows, const Divisions& divisions,
                                 const Spacing& spacing, std::span<const FixedSample> samples,
                                 const Run& run) {

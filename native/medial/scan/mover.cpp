@@ -165,7 +165,7 @@ Moved moved_at(const PointTree& tree, const Vec3& centre, const Neighbourhood& k
   return {best->place(), {known.first, best->radius, noise * std::sqrt(best->variance)}};
 }
 
-// Returns for each place the neighbourhood with the median radius of those beside it, so that
+// Returns for each place the neighbourhood with the median radius of those next to it, so that
 // neighbours use similar ones.
 std::vector<Neighbourhood> evened(const PointTree& places, std::span<const Neighbourhood> chosen,
                                   const Run& run) {

@@ -10,7 +10,7 @@ namespace medial {
 namespace {
 
 // A value reaches twice as far where no ball is larger than it, and where samples are farther apart
-// than the wall is thick, so many edges beyond.
+// than the wall is thick, this many edges beyond.
 constexpr int kBeyond = 3;
 
 // An edge of the surface has the circumcircle of a triangle of the umbrellas at both of its ends.
@@ -39,7 +39,7 @@ struct Way {
   int32_t to;
   double value;
   int32_t from;
-  int beyond = 0;  // so many edges led on from where the value reaches
+  int beyond = 0;  // this many edges led on from where the value reaches
 };
 
 // The next way is the shortest one, or the one with the largest value; the other comparisons break

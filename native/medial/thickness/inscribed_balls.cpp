@@ -31,7 +31,7 @@ constexpr double kStill = 1e-9;    // a step is none if it is so short, as a sha
 constexpr double kMet = 1e-6;      // two balls are one if they are so close
 constexpr int kMostInVain = 48;    // leaves of the tree of faces
 constexpr double kSmaller = 0.99;  // a ball that is searched to the end, which few faces touch
-constexpr double kNothing = 1e-3;  // a ball of so many roundings is none
+constexpr double kNothing = 1e-3;  // a ball of this many roundings is none
 // In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
 // a tube it then needs no search for this wall. Both walls of a shell may be in one run, so the one
 // before is of those that look about the same way: as the first place of the run, or against it.
@@ -256,7 +256,7 @@ class Shrinking {
   }
 
   // Returns how far the cosine between the normals at a place and a foot may be off by rounding; if
-  // this makes a right angle of opposite walls, as at slivers, the normals tell nothing more.
+  // this makes a right angle of opposite walls, as at slivers, the normals say nothing more.
   double turned(const Place& x, const Foot& q) const {
     const double both = x.turned + turned(q.triangle);
     return both < -kOpposite ? both : 0;

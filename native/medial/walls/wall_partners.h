@@ -13,7 +13,7 @@ class WallPartners {
   // other. The samples must outlive this object.
   WallPartners(std::span<const int32_t> partner, const Samples& samples, const Run& run);
 
-  // Returns whether two samples are partners, or each is beside the partner of the other one: then
+  // Returns whether two samples are partners, or each is next to the partner of the other one: then
   // they lie on opposite sides of one wall.
   bool are_across(const Edge& samples) const;
 
