@@ -250,22 +250,6 @@ def test_ends_at_facets_and_junctions_stay(sampled):
     assert np.array_equal(level.vertices[joints], level.exact[joints])
 
 
-@pytest.mark.parametrize("scale", [2.0**-60, 2.0**60])
-def test_scale_changes_nothing(medial, scale):
-    """A power of two changes no digit, so denormal numbers do not matter either."""
-    points = SHAPES["knot"].random_sample(3000, 0)
-    normals = SHAPES["knot"].normals(points)
-    a, b = (
-        medial.MedialAnalysis(p, normals=normals)
-        .hierarchy()
-        .extract(relaxed=True, round_limbs=True, **CLEAN)
-        for p in (points, points * scale)
-    )
-    assert np.array_equal(a.wires, b.wires)
-    assert np.array_equal(a.vertices * scale, b.vertices)
-    assert np.array_equal(a.radius * scale, b.radius)
-
-
 def test_a_tube_of_few_samples_and_one_point_of_all(medial):
     """Too few samples determine no canal: the wires are smoothed only; a point stays a point."""
     angle = 2 * math.pi * np.arange(5) / 5
@@ -278,17 +262,6 @@ def test_a_tube_of_few_samples_and_one_point_of_all(medial):
     one = medial.MedialAnalysis(ball).hierarchy()
     point = one.extract(sheet=math.inf, limb=math.inf, relaxed=True, round_limbs=True)
     assert (len(point.wires), point.points.tolist()) == (0, [0])
-
-
-def test_cancel(medial):
-    hierarchy = medial.MedialAnalysis(SHAPES["torus"].random_sample(8000, 0)).hierarchy()
-    cancelled = medial.Progress()
-    cancelled.cancel()
-    with pytest.raises(medial.Cancelled):
-        hierarchy.extract(relaxed=True, round_limbs=True, progress=cancelled)
-    done = medial.Progress()
-    hierarchy.extract(relaxed=True, round_limbs=True, progress=done, **CLEAN)
-    assert done.fraction == 1
 
 
 # --- round limbs

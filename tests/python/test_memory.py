@@ -34,8 +34,8 @@ from medial_axis.core.settings import (
 )
 from medial_axis.core.solid.reconstruction import reconstruct
 from scipy.spatial import ConvexHull, cKDTree
+from support.clouds import on_ellipsoid
 
-GOLDEN = np.pi * (1 + 5**0.5)
 THIN = AboveLimit.THIN
 CLOUD = Use(faces=False, levels=True)
 TRIANGLES = 14_396  # of ball()
@@ -45,10 +45,7 @@ NO_FACES = np.empty((0, 3), np.int32)
 
 def egg(count):
     """(n, 3) points of an ellipsoid, along a spiral."""
-    height = 1 - (2 * np.arange(count) + 1) / count
-    angle, level = GOLDEN * np.arange(count), np.sqrt(1 - height**2)
-    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
-    return sphere * [1.0, 0.7, 0.5]
+    return on_ellipsoid(count, seed=None)[0]
 
 
 def cloud(count=20_000):

@@ -82,16 +82,6 @@ def test_the_same_bytes_for_any_threads_and_others_for_another_seed(medial):
     assert medial.closing_samples(*given, seed=1)[0].tobytes() != one[0].tobytes()
 
 
-@pytest.mark.parametrize("scale", [2.0**-40, 2.0**40])
-def test_a_power_of_two_scale_changes_nothing_else(medial, scale):
-    _, (points, normals, radius) = sampled(medial, BOWL)
-    _, (others, same, radii) = sampled(medial, (scale * BOWL[0], BOWL[1]))
-    assert (others / scale).tobytes() == points.tobytes()
-    assert (
-        same == pytest.approx(normals, abs=1e-12) and (radii / scale).tobytes() == radius.tobytes()
-    )
-
-
 def test_closed_triangles_need_none(medial):
     _, (points, normals, radius) = sampled(medial, BALL)
     assert points.shape == normals.shape == (0, 3) and radius.shape == (0,)
@@ -117,17 +107,6 @@ ONE, RADIUS = np.array([[0.0, 0.0, -1.0]]), np.array([0.1])
 def test_closing_checks_its_input(medial, arguments, word):
     with pytest.raises(medial.InvalidInputError, match=rf"^Expected .*{re.escape(word)}.*found.+;"):
         medial.closing_samples(*arguments)
-
-
-def test_cancel(medial):
-    progress = medial.Progress()
-    found = medial.sample_surface(*BOWL, count=2000)
-    given = found.points, found.normals, found.radius, *BOWL
-    medial.closing_samples(*given, progress=progress)
-    assert progress.fraction == 1.0 and progress.stage == "Openings"
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        medial.closing_samples(*given, progress=progress)
 
 
 # ---- the whole way

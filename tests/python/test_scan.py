@@ -147,15 +147,6 @@ def test_threads_and_rows_change_nothing(medial):
     assert np.array_equal(three.points[by_row], one.points)
 
 
-def test_scale_changes_units_only(medial):
-    points, _ = noisy(SHAPES["torus"], 0.5)
-    small, large = (
-        medial.prepare_scan(p, medial.measure_scan(p)) for p in (points, points * 2.0**40)
-    )
-    assert np.array_equal(small.rows, large.rows)
-    assert np.array_equal(small.points * 2.0**40, large.points)
-
-
 # ---- the result, and the words
 
 

@@ -634,20 +634,6 @@ def test_command_line_takes_ends(tmp_path, capsys):
         assert f"Expected X,Y,Z, three finite numbers, found '{wrong}'" in capsys.readouterr().err
 
 
-def test_command_line_takes_frames_and_folders(tmp_path, capsys):
-    vertices, triangles = meshes.torus()
-    for frame, size in ((1, 1.0), (2, 2.0)):
-        np.savez(tmp_path / f"ring_{frame:02d}.npz", points=size * vertices, triangles=triangles)
-    words = ["skeleton", str(tmp_path / "ring_##.npz"), f"{tmp_path}/lines/", "--frames", "1-2"]
-    assert main(words) == 0
-    found = [load_skeleton(tmp_path / "lines" / f"ring_{frame:04d}.json") for frame in (1, 2)]
-    assert found[1].length == pytest.approx(2 * found[0].length, rel=1e-6)
-    report = json.loads((tmp_path / "lines" / "ring_0002.json.json").read_text())
-    assert (report["frame"], report["ends"], report["loops"]) == (2, 0, 1)
-    assert main(words) == 0
-    assert capsys.readouterr().out.count("1 branches, 0 ends, 1 loops, kept") == 2
-
-
 def test_json_is_read_back(two_rings_and_a_y, tmp_path):
     for found in two_rings_and_a_y:
         path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
