@@ -232,6 +232,7 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
     assert wrong.returncode == cli.USAGE
 
 
+@pytest.mark.oracle
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
 @pytest.mark.parametrize(
     ("megabytes", "axes"), [(348, (1, 0.8, 0.6)), (409, (1, 0.8, 0.6)), (320, (1, 1, 1))]
@@ -252,6 +253,7 @@ def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # n
     assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED)
 
 
+@pytest.mark.oracle
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
 @pytest.mark.parametrize("threads", [None, "1"])
 @pytest.mark.parametrize("megabytes", [100, 180, 252, 330])
@@ -347,6 +349,7 @@ def test_the_package_loads_nothing_before_signals_are_ours(program):  # noqa: F8
     assert said.stderr == b"medial_axis\n"
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("seed", repeats(6))
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_fuzzed_signals_from_the_first_instant(folder, program, number, seed):  # noqa: F811

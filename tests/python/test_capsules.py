@@ -173,8 +173,9 @@ def covered(shapes="capsules", **options):
     return found.balls
 
 
+@pytest.mark.turn
 def test_capsules_of_a_torus_go_round_it():
-    fine = meshes.torus(1.0, 0.4, 96, 48)
+    fine = meshes.torus(1.0, 0.4, 64, 32)
     found = medial_axis.cover_by_balls(*fine, sampling="vertices", shapes="tapered", count=14)
     balls = found.balls
     assert 6 <= balls.count <= 14 and balls.covered > 0.75 and balls.outside == 0.0
@@ -189,6 +190,7 @@ def test_fewer_capsules_than_the_topology_needs():
     assert balls.count == 1 and balls.outside == 0.0 and balls.farthest > 0.5
 
 
+@pytest.mark.turn
 def test_a_box_has_capsules():
     """Its sheets reach the sharp edges, where radii are 0."""
     mesh = meshes.box()

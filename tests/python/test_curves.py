@@ -91,6 +91,7 @@ def analysed(medial, shape, n, noise, seed=0):
     return medial.MedialAnalysis(points)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "n, noise, mean, largest",
     [(2000, 0.0, 4.5e-5, 1.5e-4), (8000, 0.0, 1.5e-5, 3.0e-5), (8000, 0.1, 1e-3, 3e-3)],
@@ -306,6 +307,7 @@ def of_mesh(data_file, name):
 
 
 # Dangling wires of the clean form: cactus' arms are round, its like there is none on these scans but ridges.
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "name, most", [("liver.ply", 0), ("hand_closed.obj", 0), ("fandisk_large.off", 0)]
 )
@@ -321,6 +323,7 @@ def test_round_arms_stay(data_file):
     assert tips(hierarchy.extract(round_limbs=True, **CLEAN)) == 4
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name, fewest, most", [("hand_closed.obj", 6, 6), ("dilo.off", 6, 8)])
 def test_tips_of_curves(data_file, name, fewest, most):
     """From 2 to 8 % of the diagonal; none is lost where the curve is relaxed."""

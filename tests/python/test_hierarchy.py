@@ -144,11 +144,11 @@ def test_values_are_those_of_the_definition(study, seed):
 
 def test_all_levels_of_random_and_degenerate_inputs_have_the_topology_of_the_complex(medial):
     met = 0
-    for _, _, analysis in inputs(medial, range(300)):
+    for _, _, analysis in inputs(medial, range(120)):
         hierarchy = analysis.hierarchy()
         met += hierarchy.betti != (1, 0, 0)
         assert_levels_hold(hierarchy, analysis)
-    assert met > 20
+    assert met > 8
 
 
 @pytest.mark.slow
@@ -307,6 +307,7 @@ NOISY = {
 }
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("noise, name", NOISY)
 def test_clean_levels_of_noisy_solids(sampled, noise, name):
     shape, _, hierarchy = sampled(name, 8000, 0, noise)
@@ -321,6 +322,7 @@ def test_clean_levels_of_noisy_solids(sampled, noise, name):
 SHEETS = ("ellipsoid", "oblate", "slab", "shell", "box")
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", SHEETS)
 @pytest.mark.parametrize("n", [2000, 8000])
 def test_clean_sheets_are_as_good_as_published_ones(medial, sampled, name, n):

@@ -231,6 +231,7 @@ def ends_of(skeleton):
     return skeleton.points[tip], skeleton.radius[tip]
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "tips", "loops", "radii_off", "mirrored"),
     [
@@ -309,7 +310,7 @@ def symmetric_tubes():
 
 
 def test_symmetric_skeletons_are_exactly_so():
-    found = of_tubes(symmetric_tubes(), 6000)
+    found = of_tubes(symmetric_tubes(), 3000)
     assert found.mirrored
     points = found.skeleton.points
     plane = centre_of_mass(found.skeleton)[0]
@@ -318,15 +319,15 @@ def test_symmetric_skeletons_are_exactly_so():
 
 
 def test_others_are_left_as_they_are():
-    found = of_tubes(tubes.y_of_tubes(), 4000)
-    plain = of_tubes(tubes.y_of_tubes(), 4000, mirror=False)
+    found = of_tubes(tubes.y_of_tubes(), 1500)
+    plain = of_tubes(tubes.y_of_tubes(), 1500, mirror=False)
     assert not found.mirrored
     np.testing.assert_array_equal(found.skeleton.points, plain.skeleton.points)
 
 
 def test_mirrored_model_mirrored_names():
     solid = symmetric_tubes()
-    points = solid.sample(6000)
+    points = solid.sample(2500)
     named = []
     for sign in (1.0, -1.0):
         shape = Shape(points * (sign, 1, 1), NO_FACES, solid.normals(points) * (sign, 1, 1))
@@ -553,7 +554,7 @@ def normals(points, triangles):
 
 @pytest.fixture(scope="module")
 def two_rings_and_a_y():
-    return of_tubes(tubes.y_of_tubes(), 4000), compute_skeleton(
+    return of_tubes(tubes.y_of_tubes(), 1500), compute_skeleton(
         Shape(*meshes.torus()), Settings(), SkeletonSettings()
     )
 
@@ -621,7 +622,7 @@ def test_command_line_takes_ends(tmp_path, capsys):
     solid = tubes.y_of_tubes()
     tips = [line[-1] for line in solid.lines[:2]]
     words = ["skeleton", str(tmp_path / "y.npz"), str(tmp_path / "y.json")]
-    points = solid.sample(4000)
+    points = solid.sample(1500)
     np.savez(words[1], points=points, normals=solid.normals(points))
     ends = [f"--end={','.join(map(str, tip))}" for tip in tips]
     assert main([*words, *ends]) == 0
