@@ -136,7 +136,7 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
         for frame in range(1, 6) if "#" in name else [0]:
             write(tmp_path / name.replace("####", f"{frame:04d}"))
     if any(name.endswith(".stl") for name in inputs) and words[0] != "hollow":
-        words += ["--samples", "1000"]  # of the faces; for the sake of time
+        words += ["--samples", "300"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}
     code = cli.main(words)
     may_end = {
