@@ -202,11 +202,6 @@ def test_an_open_mesh_may_be_asked_for_its_inner_axis(medial):
         assert len(analysis.extract(side=medial.Side.INNER).generators) > 100
 
 
-def test_threads_must_not_be_negative(medial):
-    with pytest.raises(medial.InvalidInputError):
-        medial.MedialAnalysis(CLOUD, threads=-1)
-
-
 @pytest.mark.parametrize("argument", ["theta", "side", "rule", "criteria"])
 def test_arguments_of_a_wrong_type(medial, argument):
     with pytest.raises(TypeError):

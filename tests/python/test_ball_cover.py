@@ -317,30 +317,6 @@ def test_the_first_balls_of_many_are_the_few(medial, mode):
             before[:count] = few.radii
 
 
-@pytest.mark.parametrize("refine", [True, False])
-@pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
-def test_threads_and_scale_change_nothing(medial, mode, refine):
-    case = torus_case()
-    one = cover(medial, case, 15, mode, places=5000, refine=refine, threads=1)
-    more = cover(medial, case, 15, mode, places=5000, refine=refine, threads=5)
-    for name in ("chosen", "radii", "covered"):
-        assert getattr(one, name).tobytes() == getattr(more, name).tobytes()
-    assert (one.outside, one.farthest) == (more.outside, more.farthest)
-    (vertices, triangles), centres, radii = case
-    for scale in (2.0**-100, 2.0**20, 2.0**120):
-        large = cover(
-            medial,
-            ((scale * vertices, triangles), scale * centres, scale * radii),
-            15,
-            mode,
-            places=5000,
-            refine=refine,
-        )
-        assert large.chosen.tolist() == one.chosen.tolist()
-        assert (large.radii / scale).tolist() == one.radii.tolist()
-        assert large.outside == scale * one.outside and large.farthest == scale * one.farthest
-
-
 @pytest.mark.turn
 def test_fewer_balls_where_more_add_nothing(medial):
     centres, radii = np.zeros((3, 3)), np.array([0.5, 0.9, 0.2])
@@ -446,8 +422,8 @@ def test_a_cloud_of_points_has_balls():
 
 
 def test_an_open_surface_has_balls():
-    vertices, triangles = meshes.icosphere(4)
-    found = covered((vertices, triangles[30:]), count=4)
+    vertices, triangles = meshes.icosphere(3)
+    found = covered((vertices, triangles[8:]), count=4, sampling="vertices")
     assert found.balls.covered > 0.9
 
 
@@ -596,31 +572,3 @@ def test_placed_balls_scale(tmp_path):
     assert np.allclose(known["balls"][3]["centre"], (1 - 2 * y, 2 + 2 * x, 3 + 2 * z))
     with pytest.raises(ExportError, match="scaled evenly"):
         export_balls(balls, tmp_path / "b.json", np.diag((1.0, 2.0, 1.0, 1.0)))
-
-
-def test_the_command_line_writes_the_same(tmp_path, capsys):
-    from medial_axis.cli import main as run
-
-    vertices, triangles = TORUS
-    source = tmp_path / "torus.off"
-    lines = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
-    lines += ["{!r} {!r} {!r}".format(*row) for row in vertices.tolist()]
-    lines += ["3 {} {} {}".format(*row) for row in triangles.tolist()]
-    source.write_text("\n".join(lines))
-    output = tmp_path / "torus.json"
-    words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
-    assert run(["balls", str(source), str(output), *words]) == 0
-    assert "6 balls, 100.0 % of the volume" in capsys.readouterr().out
-    report = json.loads((tmp_path / "torus.json.json").read_text())
-    assert report["count"] == 6 and report["mode"] == report["settings"]["mode"] == "around"
-    assert run(["balls", str(source), str(output), *words]) == 0
-    assert ", kept" in capsys.readouterr().out
-    folder = ["balls", str(source), str(tmp_path / "many") + "/", "--format", "ma", "--json"]
-    assert run([*folder, "--count", "3"]) == 0
-    assert json.loads(capsys.readouterr().out)["count"] == 3
-    assert len((tmp_path / "many" / "torus.ma").read_text().split("\n")) == 5
-    balls = covered(TORUS, count=6, mode="around", sampling="vertices").balls
-    assert json.loads(output.read_text())["balls"][5]["radius"] == balls.radii[5]
-    assert run(["balls", str(source), str(tmp_path / "x.ply")]) == 2
-    assert run(["balls", str(source), str(output), "--count", "0"]) == 2
-    assert run(["balls", str(tmp_path / "none.off"), str(output)]) == 3

@@ -242,6 +242,7 @@ def test_a_skeleton_does_not_depend_on_the_settings_before(name):
     assert_independent_of_history(lambda wanted: compute_skeleton(shape, settings, wanted), pairs)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(BallSettings))
 def test_balls_do_not_depend_on_the_settings_before(name):
     shape = bent_shape()

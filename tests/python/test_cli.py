@@ -19,8 +19,6 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.batch import batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
 from medial_axis.core.errors import ExportError, InvalidInputError
-from medial_axis.core.files.axis_arrays import as_arrays
-from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write import export_axis
@@ -32,20 +30,15 @@ from medial_axis.core.settings import (
     Settings,
     Side,
 )
+from support.clouds import on_ellipsoid
 from support.package import PACKAGE
 
 ROOT = Path(__file__).resolve().parents[2]
-GOLDEN = np.pi * (1 + 5**0.5)
 
 
 def egg(stretch=1.0, count=400):
     """(n, 6) points and normals of an ellipsoid."""
-    height = 1 - (2 * np.arange(count) + 1) / count
-    angle, level = GOLDEN * np.arange(count), np.sqrt(1 - height**2)
-    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
-    axes = np.array([1.0, 0.7, 0.5 * stretch])
-    normals = sphere / axes
-    return np.column_stack([sphere * axes, normals / np.linalg.norm(normals, axis=1)[:, None]])
+    return np.column_stack(on_ellipsoid(count, (1.0, 0.7, 0.5 * stretch), seed=None))
 
 
 def write_egg(path, *arguments):
@@ -118,17 +111,6 @@ def test_output_is_what_compute_and_export_make(here, run):
 def test_every_format(here, run, suffix):
     code, (report,), _ = run("egg.xyz", f"egg.{suffix}")
     assert code == cli.DONE and Path(report["output"]).stat().st_size > 1000
-
-
-def test_npz_comes_back(here, run):
-    _, (report,), _ = run("egg.xyz", "egg.npz")
-    axis = load_axis("egg.npz")
-    assert axis.facets == report["facets"] and len(axis.radius) == report["vertices"]
-    again = as_arrays(axis)
-    with np.load("egg.npz") as arrays:
-        assert set(arrays) == set(again)
-        for name in arrays:
-            np.testing.assert_array_equal(again[name], arrays[name])
 
 
 def test_lines_for_people(here, capsys):
@@ -438,12 +420,6 @@ def test_what_changed_is_computed_again(here, run, change):
     assert run("egg.xyz", "egg.ma")[1][0]["status"] == "kept"
 
 
-def test_other_settings_are_computed_again(here, run):
-    run("egg.xyz", "egg.ma")
-    assert run("egg.xyz", "egg.ma", "--rho", "9")[1][0]["status"] == "done"
-    assert run("egg.xyz", "egg.ma")[1][0]["status"] == "done"
-
-
 def test_stamp_names_all_that_matters(here):
     shape = read_shape("egg.xyz")[0]
     stamps = {
@@ -493,7 +469,7 @@ def wait_for(condition, seconds=60):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_cancelled(here, program, number):
     """The second of three is stopped in the middle of its computation; the first is there."""
-    np.save("big.npy", egg(count=300_000))
+    np.save("big.npy", egg(count=150_000))
     write_egg(here / "third.xyz")
     process = program("egg.xyz", "big.npy", "third.xyz", "out/{name}.ma", "--json", popen=True)
     assert json.loads(process.stdout.readline())["status"] == "done"
@@ -530,7 +506,7 @@ def test_killed_while_writing_leaves_the_old_file(here, program):
 def test_two_at_once_in_one_folder(here, program):
     """The same work runs twice, next to other work: every file is whole, and equal to one made alone."""
     names = []
-    for i in range(6):
+    for i in range(3):
         np.save(f"egg{i}.npy", egg(1 + i / 5, 3000))
         names.append(f"egg{i}.npy")
     assert program(*names, "alone/").returncode == 0
@@ -541,19 +517,18 @@ def test_two_at_once_in_one_folder(here, program):
         output = Path(name).with_suffix(".ma")
         assert (here / "out" / output).read_bytes() == (here / "alone" / output).read_bytes()
     kept = program(*names, "out/", "--json")
-    assert [json.loads(x)["status"] for x in kept.stdout.splitlines()] == ["kept"] * 6
+    assert [json.loads(x)["status"] for x in kept.stdout.splitlines()] == ["kept"] * 3
 
 
 def test_no_progress_in_a_pipe(here, program):
-    np.save("big.npy", egg(count=40_000))
-    done = program("big.npy", "big.ma")
+    done = program("egg.xyz", "egg.ma")
     assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_progress_on_a_terminal(here, program):
     import pty
 
-    np.save("big.npy", egg(count=150_000))
+    np.save("big.npy", egg(count=8_000))
     try:
         ours, theirs = pty.openpty()
     except OSError as reason:  # in a chroot without /dev/pts

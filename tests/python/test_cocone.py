@@ -112,6 +112,7 @@ def test_coplanar_and_cospherical_samples(study, name):
     assert_equals_brute_force(study, name, "default")
 
 
+@pytest.mark.turn
 def test_rounding_decides_little(study):
     """Rounding rarely matters for clouds in general position; some samples pass each condition and some fail it."""
     for options in OPTIONS:

@@ -141,7 +141,7 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
     if words[0] == "robot":
         (tmp_path / words[1]).write_text(ROBOT)
     if any(name.endswith(".stl") for name in inputs) and words[0] != "hollow":
-        words += ["--samples", "1000"]  # of the faces; for the sake of time
+        words += ["--samples", "300"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}
     code = cli.main(words)
     may_end = {

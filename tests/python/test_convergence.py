@@ -6,7 +6,7 @@ The 8000-sample runs use 1 seed by default, all 5 with --slow.
 
 import numpy as np
 import pytest
-from support import measure, meshes, reference, shapes
+from support import measure, reference, shapes
 from support.accuracy import BARS
 from support.shapes import SHAPES
 
@@ -83,30 +83,6 @@ def test_no_facet_of_an_ellipsoid_reaches_infinity(extracted, name, seed):
     assert extracted(name, 2000, seed).unbounded == 0
 
 
-def test_grid_cube_has_192_facets_on_the_true_axis(medial):
-    """8 x 8 x 8 cells: all ties and coincidences there are, and a known answer, 12 (1 + 3 + 5 + 7)."""
-    mesh = medial.MedialAnalysis(shapes.grid_cube(8)).extract()
-    cube = shapes.Box(4.0, 4.0, 4.0)
-    inner = measure.inner_facets(mesh, cube)
-    assert inner.sum() == 192
-    offsets, corners = measure.keep(mesh, inner)
-    triangles = measure.fan_triangles(mesh.vertices, offsets, corners)
-    area = np.linalg.norm(
-        np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1
-    )
-    assert (
-        np.add.reduceat(area, np.concatenate(([0], np.cumsum(np.diff(offsets) - 2)[:-1]))) > 0.01
-    ).all()
-    assert cube.axis_distance(mesh.vertices[np.unique(corners)]).max() <= 1e-12
-
-
-def test_grid_cube_by_its_mesh(medial):
-    vertices, triangles = meshes.box((8, 8, 8), (4.0, 4.0, 4.0))
-    analysis = medial.MedialAnalysis(vertices, triangles)
-    mesh = analysis.extract(side=medial.Side.INNER)
-    assert analysis.closed and len(mesh.generators) == 192 and mesh.unbounded == 0
-
-
 @pytest.mark.parametrize("turn", range(3))
 def test_turned_grid_cube(medial, turn):
     """The same with rounding errors in every tie."""
@@ -129,20 +105,6 @@ def test_radius_is_the_distance_to_the_surface(extracted):
     middle = (mesh.vertices[:, 0] / p) ** 2 + (mesh.vertices[:, 1] / q) ** 2 < 0.9
     assert middle.sum() > 1000
     assert np.abs(mesh.radius - ellipsoid.axis_radius(mesh.vertices))[middle].max() < 5e-3
-
-
-def test_outer_axis_of_the_torus(medial):
-    """With the bounding sphere of sect. 4.2: the z axis, and nothing beyond the sphere."""
-    torus = SHAPES["torus"]
-    mesh = medial.MedialAnalysis(torus.sample(2000, 0), bounding_sphere=True).extract()
-    outer = ~torus.inside(mesh.vertices)
-    facet = np.logical_and.reduceat(outer[mesh.face_vertices], mesh.face_offsets[:-1])
-    _, corners = measure.keep(mesh, facet)
-    vertices = mesh.vertices[np.unique(corners)]
-    near = np.abs(vertices[:, 2]) < 0.5
-    assert mesh.unbounded == 0 and near.sum() > 50
-    assert torus.outer_axis_distance(vertices[near]).mean() < 0.03
-    assert np.linalg.norm(vertices, axis=1).max() < 2 * 1.4
 
 
 def test_cavity_axis_of_the_shell(medial):

@@ -91,6 +91,7 @@ def analysed(medial, shape, n, noise, seed=0):
     return medial.MedialAnalysis(points)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "n, noise, mean, largest",
     [(2000, 0.0, 4.5e-5, 1.5e-4), (8000, 0.0, 1.5e-5, 3.0e-5), (8000, 0.1, 1e-3, 3e-3)],
@@ -250,22 +251,6 @@ def test_ends_at_facets_and_junctions_stay(sampled):
     assert np.array_equal(level.vertices[joints], level.exact[joints])
 
 
-@pytest.mark.parametrize("scale", [2.0**-60, 2.0**60])
-def test_scale_changes_nothing(medial, scale):
-    """A power of two changes no digit, so denormal numbers do not matter either."""
-    points = SHAPES["knot"].random_sample(3000, 0)
-    normals = SHAPES["knot"].normals(points)
-    a, b = (
-        medial.MedialAnalysis(p, normals=normals)
-        .hierarchy()
-        .extract(relaxed=True, round_limbs=True, **CLEAN)
-        for p in (points, points * scale)
-    )
-    assert np.array_equal(a.wires, b.wires)
-    assert np.array_equal(a.vertices * scale, b.vertices)
-    assert np.array_equal(a.radius * scale, b.radius)
-
-
 def test_a_tube_of_few_samples_and_one_point_of_all(medial):
     """Too few samples determine no canal: the wires are smoothed only; a point stays a point."""
     angle = 2 * math.pi * np.arange(5) / 5
@@ -278,17 +263,6 @@ def test_a_tube_of_few_samples_and_one_point_of_all(medial):
     one = medial.MedialAnalysis(ball).hierarchy()
     point = one.extract(sheet=math.inf, limb=math.inf, relaxed=True, round_limbs=True)
     assert (len(point.wires), point.points.tolist()) == (0, [0])
-
-
-def test_cancel(medial):
-    hierarchy = medial.MedialAnalysis(SHAPES["torus"].random_sample(8000, 0)).hierarchy()
-    cancelled = medial.Progress()
-    cancelled.cancel()
-    with pytest.raises(medial.Cancelled):
-        hierarchy.extract(relaxed=True, round_limbs=True, progress=cancelled)
-    done = medial.Progress()
-    hierarchy.extract(relaxed=True, round_limbs=True, progress=done, **CLEAN)
-    assert done.fraction == 1
 
 
 # --- round limbs
@@ -333,6 +307,7 @@ def of_mesh(data_file, name):
 
 
 # Dangling wires of the clean form: cactus' arms are round, its like there is none on these scans but ridges.
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "name, most", [("liver.ply", 0), ("hand_closed.obj", 0), ("fandisk_large.off", 0)]
 )
@@ -348,6 +323,7 @@ def test_round_arms_stay(data_file):
     assert tips(hierarchy.extract(round_limbs=True, **CLEAN)) == 4
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name, fewest, most", [("hand_closed.obj", 6, 6), ("dilo.off", 6, 8)])
 def test_tips_of_curves(data_file, name, fewest, most):
     """From 2 to 8 % of the diagonal; none is lost where the curve is relaxed."""

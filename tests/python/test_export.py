@@ -16,6 +16,7 @@ from medial_axis.core.errors import ExportError
 from medial_axis.core.files import write as export_module
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
+from support.inputs import rotation
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 
@@ -382,14 +383,9 @@ def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
 # --- placing
 
 
-def rotation(seed=3):
-    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
-    return q * np.sign(np.linalg.det(q))
-
-
 @pytest.mark.parametrize("rows", [3, 4])
 def test_rigid_transform_moves_points_and_leaves_radii(rows, tmp_path):
-    axis, turn = AXES["sheets"], rotation()
+    axis, turn = AXES["sheets"], rotation(3)
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = turn, (1, 2, 3)
     matrix = matrix.astype(np.float32)[:rows]

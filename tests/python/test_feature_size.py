@@ -176,14 +176,6 @@ def test_chosen_rows(medial):
     assert len(analysis.feature_size(rows=rows[:0])) == 0
 
 
-@pytest.mark.parametrize("threads", [2, 3])
-def test_threads_change_no_byte(medial, threads):
-    points = SHAPES["torus"].random_sample(40_000, 0)
-    one, more = (analysis_of(medial, points, threads=n) for n in (1, threads))
-    assert one.feature_size().tobytes() == more.feature_size().tobytes()
-    assert one.spacing.tobytes() == more.spacing.tobytes()
-
-
 @pytest.mark.parametrize("exponent", [-40, 30])
 def test_scale_by_a_power_of_two_changes_no_bit(medial, exponent):
     for points in (CASES["ellipsoid"], CASES["graded"]):
@@ -227,13 +219,3 @@ def test_rows_that_are_not_valid(medial, rows):
     with pytest.raises(medial.InvalidInputError) as error:
         analysis_of(medial, CLOUD).feature_size(rows=rows)
     assert re.match(r"^Expected rows .+found.+;", str(error.value))
-
-
-def test_cancel(medial):
-    progress = medial.Progress()
-    analysis = analysis_of(medial, CLOUD)
-    analysis.feature_size(progress=progress)
-    assert progress.fraction == 1.0 and progress.stage == "Feature size"
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        analysis.feature_size(progress=progress)

@@ -144,11 +144,11 @@ def test_values_are_those_of_the_definition(study, seed):
 
 def test_all_levels_of_random_and_degenerate_inputs_have_the_topology_of_the_complex(medial):
     met = 0
-    for _, _, analysis in inputs(medial, range(300)):
+    for _, _, analysis in inputs(medial, range(120)):
         hierarchy = analysis.hierarchy()
         met += hierarchy.betti != (1, 0, 0)
         assert_levels_hold(hierarchy, analysis)
-    assert met > 20
+    assert met > 8
 
 
 @pytest.mark.slow
@@ -307,6 +307,7 @@ NOISY = {
 }
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("noise, name", NOISY)
 def test_clean_levels_of_noisy_solids(sampled, noise, name):
     shape, _, hierarchy = sampled(name, 8000, 0, noise)
@@ -321,6 +322,7 @@ def test_clean_levels_of_noisy_solids(sampled, noise, name):
 SHEETS = ("ellipsoid", "oblate", "slab", "shell", "box")
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", SHEETS)
 @pytest.mark.parametrize("n", [2000, 8000])
 def test_clean_sheets_are_as_good_as_published_ones(medial, sampled, name, n):
@@ -386,47 +388,6 @@ def test_axis_of_a_coarse_ring_of_circles_is_a_circle(medial):
 # --- what it is asked
 
 
-def assert_same_values(one, other):
-    names = [n for n in dir(one) if not n.startswith("_") and n != "timings"]
-    names = [n for n in names if not callable(getattr(one, n))]
-    assert len(names) > 20
-    for name in names:
-        assert np.array_equal(getattr(one, name), getattr(other, name)), name
-
-
-@pytest.mark.turn
-def test_the_same_bytes_for_every_thread_count(medial):
-    points = SHAPES["ellipsoid"].random_sample(20000, 0)
-    one, three = (medial.MedialAnalysis(points, threads=t).hierarchy() for t in (1, 3))
-    assert_same_values(one, three)
-    assert_same_values(*(h.even(spacings=1.0).selecting(0.7, 12.0) for h in (one, three)))
-    for chosen in THRESHOLDS + [{**t, "relaxed": True, "round_limbs": True} for t in THRESHOLDS]:
-        a, b = one.extract(**chosen), three.extract(**chosen)
-        for name in (
-            "vertices",
-            "radius",
-            "exact",
-            "exact_radius",
-            "sheet",
-            "erosion",
-            "limb",
-            "face_offsets",
-            "face_vertices",
-            "generators",
-            "wires",
-            "points",
-        ):
-            assert np.array_equal(getattr(a, name), getattr(b, name)), (chosen, name)
-
-
-@pytest.mark.parametrize("scale", [2.0**-60, 2.0**60])
-def test_scale_changes_nothing(medial, scale):
-    points = SHAPES["slab"].random_sample(3000, 0)
-    a, b = (medial.MedialAnalysis(p).hierarchy() for p in (points, points * scale))
-    for name in ("facet_sheet", "facet_spacings", "vertex_erosion", "vertex_limb", "edges"):
-        assert np.array_equal(getattr(a, name), getattr(b, name)), name
-
-
 def test_level_zero_by_other_conditions(medial):
     """Thresholds of the hierarchy are those of extract."""
     analysis = medial.MedialAnalysis(SHAPES["oblate"].random_sample(3000, 0))
@@ -478,19 +439,6 @@ def test_what_it_refuses(medial):
         for value in (-0.1, math.nan):
             with pytest.raises(medial.InvalidInputError, match=name):
                 hierarchy.extract(**{name: value})
-
-
-def test_cancel(medial):
-    analysis = medial.MedialAnalysis(SHAPES["ellipsoid"].random_sample(20000, 0))
-    cancelled = medial.Progress()
-    cancelled.cancel()
-    with pytest.raises(medial.Cancelled):
-        analysis.hierarchy(progress=cancelled)
-    with pytest.raises(medial.Cancelled):
-        analysis.hierarchy().extract(progress=cancelled)
-    done = medial.Progress()
-    analysis.hierarchy(progress=done)
-    assert done.fraction == 1
 
 
 # --- real meshes, as one click samples them

@@ -34,8 +34,8 @@ from medial_axis.core.settings import (
 )
 from medial_axis.core.shape.shape import Shape
 from scipy.spatial import ConvexHull, cKDTree
+from support.clouds import on_ellipsoid
 
-GOLDEN = np.pi * (1 + 5**0.5)
 THIN = AboveLimit.THIN
 CLOUD = Use(faces=False, levels=True)
 TRIANGLES = 14_396  # of ball()
@@ -45,10 +45,7 @@ NO_FACES = np.empty((0, 3), np.int32)
 
 def egg(count):
     """(n, 3) points of an ellipsoid, along a spiral."""
-    height = 1 - (2 * np.arange(count) + 1) / count
-    angle, level = GOLDEN * np.arange(count), np.sqrt(1 - height**2)
-    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
-    return sphere * [1.0, 0.7, 0.5]
+    return on_ellipsoid(count, seed=None)[0]
 
 
 def cloud(count=20_000):
@@ -86,58 +83,36 @@ def room(monkeypatch):
 # --- the cache
 
 
+def youngest(rows, room):
+    """Rows (key, size), oldest first, without the first ones that leave no room for the others."""
+    while sum(size for _, size in rows) > room:
+        rows = rows[1:]
+    return rows
+
+
 def test_oldest_analyses_go_first():
-    kept = AnalysisCache(room=100)
-    for key in "abc":
-        kept.put(key, key.upper(), 40)
-    assert kept.get("a") is None and kept.get("b") == "B" and kept.get("c") == "C"
-    assert (len(kept), kept.bytes, kept.analyses) == (2, 80, 3)
-
-
-def test_asking_for_an_analysis_makes_it_young():
-    kept = AnalysisCache(room=100)
-    kept.put("a", "A", 40)
-    kept.put("b", "B", 40)
-    kept.get("a")
-    kept.put("c", "C", 40)
-    assert kept.get("b") is None and kept.get("a") == "A"
-
-
-def test_what_exceeds_all_room_is_not_kept_and_drops_nothing():
-    kept = AnalysisCache(room=100)
-    kept.put("a", "A", 40)
-    kept.put("b", "B", 101)
-    assert kept.get("b") is None and kept.get("a") == "A" and kept.analyses == 2
-
-
-def test_less_room_drops_at_once():
-    kept = AnalysisCache(room=100)
-    for key in "ab":
-        kept.put(key, key, 40)
-    kept.room = 50
-    assert kept.get("a") is None and kept.get("b") == "b"
-    kept.room = 0
-    assert len(kept) == kept.bytes == 0
-
-
-def test_giving_back_drops_as_much_as_is_needed():
-    kept = AnalysisCache(room=100)
-    for key in "abc":
-        kept.put(key, key, 30)
-    kept.give_back(0)
-    kept.give_back(-5)
-    assert len(kept) == 3
-    kept.give_back(31)
-    assert len(kept) == 1
-    kept.give_back(1000)
-    assert len(kept) == 0
-
-
-def test_the_same_key_is_counted_once():
-    kept = AnalysisCache(room=100)
-    kept.put("a", "A", 60)
-    kept.put("a", "B", 70)
-    assert (len(kept), kept.bytes, kept.get("a")) == (1, 70, "B")
+    """A list in the order of use tells what is kept, whatever is done in whichever order."""
+    random, room, rows, analyses = np.random.default_rng(1), 100, [], 0
+    kept = AnalysisCache(room)
+    for what in random.choice([*4 * ["get", "put"], "resize", "room", "give back"], 2000):
+        key, size = random.choice(list("abcdef")), int(random.choice([-5, 7, 11, 20, 31, 130]))
+        others, own = ([row for row in rows if (row[0] == key) == same] for same in (False, True))
+        if what == "get":
+            assert kept.get(key) == (key if own else None)
+            rows = others + own
+        elif what == "room":
+            kept.room = room = max(0, 100 - 3 * size)
+            rows = youngest(rows, room)
+        elif what == "give back":
+            kept.give_back(size)
+            rows = youngest(rows, max(0, sum(size for _, size in rows) - max(0, size)))
+        elif what == "put" or own:
+            size = abs(size)
+            kept.put(key, key, size) if what == "put" else kept.resize(key, size)
+            analyses += what == "put"
+            rows = [*youngest(others, room - size), (key, size)] if size <= room else others
+        assert (len(kept), kept.bytes) == (len(rows), sum(size for _, size in rows))
+        assert kept.analyses == analyses
 
 
 def test_kept_bytes_are_those_of_analyses_and_arrays():

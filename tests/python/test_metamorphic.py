@@ -85,11 +85,6 @@ def test_thread_count_changes_no_byte_of_sides(medial):
     assert_same_bytes(one, two)
 
 
-def test_thread_count_of_a_large_input(medial):
-    cloud = shapes.SHAPES["knot"].random_sample(60000, 0)
-    assert_same_bytes(*(everything(medial.MedialAnalysis(cloud, threads=n)) for n in (1, 2)))
-
-
 @pytest.mark.parametrize("exponent", [-30, -1, 1, 40])
 def test_scale_by_a_power_of_two_changes_no_bit(medial, any_points, exponent):
     scale = 2.0**exponent

@@ -173,13 +173,6 @@ def test_size_place_and_turn_do_not_matter(medial):
         assert np.array_equal(medial.outward_faces(points, mesh[1])[0], expected[0])
 
 
-@pytest.mark.parametrize("threads", [1, 2, 7])
-def test_thread_count_changes_nothing(medial, threads):
-    mesh, _ = flipped(SOLIDS["overlap"], 0.5)
-    some, all_ = medial.outward_faces(*mesh, threads=threads), medial.outward_faces(*mesh)
-    assert all(np.array_equal(a, b) for a, b in zip(some, all_, strict=True))
-
-
 def test_bad_faces_are_refused(medial):
     points, triangles = cube()
     with pytest.raises(medial.InvalidInputError, match="corners below 8, found 9"):

@@ -101,6 +101,7 @@ farthest = pytest.mark.parametrize("sizes", [1e5])
 every = pytest.mark.parametrize("name", SOLIDS)
 
 
+@pytest.mark.turn
 @far
 @every
 def test_axes_have_the_radii_of_the_faces(name, sizes):
@@ -119,10 +120,11 @@ def test_axes_have_the_radii_of_the_faces(name, sizes):
     assert axis.level.refused <= 0.1 * len(axis.vertices)
 
 
+@pytest.mark.turn
 @far
 @every
 def test_thickness(name, sizes, tmp_path):
-    work = Thickness(Settings(smooth=False), ThicknessSettings(limit=0.08))
+    work = Thickness(Settings(smooth=False, samples=1500), ThicknessSettings(limit=0.08))
     reports = []
     for distance in (0.0, sizes):
         shape, _ = placed(name, 3, distance)
@@ -134,10 +136,13 @@ def test_thickness(name, sizes, tmp_path):
         assert np.abs(patch["place"] - sizes * DIRECTION).max() <= 1.0
 
 
+@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["plate", "tube"])
 def test_thicken(name, sizes, tmp_path):
-    work = ThickerWalls(Settings(smooth=False), ThickenSettings(limit=0.1, subdivide=True))
+    work = ThickerWalls(
+        Settings(smooth=False, samples=1500), ThickenSettings(limit=0.1, subdivide=True)
+    )
     (one, near), (other, there) = near_and_far(work, name, 4, sizes, tmp_path / "thick.off")
     assert_alike(one, other, ["minimum", "minimum_before"], 1e-5)
     # Which of two walls as near as each other fills in a place depends on the last bit.
@@ -145,6 +150,7 @@ def test_thicken(name, sizes, tmp_path):
     assert_same_places(near, there, 1e-5)
 
 
+@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_middle_surfaces(name, sizes, tmp_path):
@@ -154,6 +160,7 @@ def test_middle_surfaces(name, sizes, tmp_path):
     assert_alike(one, other, names, 0.01)
 
 
+@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["box", "profile"])
 def test_hollow(name, sizes, tmp_path):
@@ -163,6 +170,7 @@ def test_hollow(name, sizes, tmp_path):
     assert one["warnings"] == other["warnings"]
 
 
+@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["tube", "profile"])
 def test_skeletons(name, sizes, tmp_path):
@@ -178,6 +186,7 @@ def test_skeletons(name, sizes, tmp_path):
     assert reports[0]["warnings"] == reports[1]["warnings"]
 
 
+@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["box", "profile"])
 @pytest.mark.parametrize("shapes", [CoverShapes.BALLS, CoverShapes.CAPSULES])
@@ -221,6 +230,7 @@ def test_points_alone():
 # --- coordinates in 32 bits
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_single_coordinates_at_a_thousand_sizes(name, tmp_path):
     """Their noise is 10^-4 sizes there: the products are those at the origin up to a few times that."""

@@ -211,13 +211,6 @@ def test_threads_and_order_change_nothing(medial, sphere):
     assert np.array_equal(edges[row], plain.edges) and np.array_equal(mixed.side[row], plain.side)
 
 
-def test_a_power_of_two_changes_nothing(medial):
-    points = SHAPES["shell"].sample(1000, 0)
-    expected = poles(medial, points).side
-    for factor in (2.0**-40, 2.0**40):
-        assert np.array_equal(poles(medial, points * factor).side, expected)
-
-
 def test_bounding_sphere_leaves_the_inner_facets(medial):
     points = SHAPES["shell"].sample(2000, 0)
     plain, within = (poles(medial, points, bounding_sphere=sphere) for sphere in (False, True))
@@ -232,10 +225,3 @@ def test_structured_points_have_sides(medial, name):
     """Grids, hollow boxes, prisms: many cospherical cells, and samples on no smooth surface."""
     sides = {medial.Side.INNER, medial.Side.OUTER, medial.Side.CROSSING}
     assert set(poles(medial, STRUCTURED[name]).side.tolist()) <= set(map(int, sides))
-
-
-def test_cancelled(medial):
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        poles(medial, SHAPES["torus"].sample(500, 0), progress=progress)

@@ -239,26 +239,6 @@ def test_real_meshes_keep_their_holes(data_file, name):
         assert betti(len(reduced.vertices), corners, reduced.edges) == before
 
 
-def test_threads_and_scale_change_nothing(medial, computed):
-    axis = computed[1].axis
-    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
-    mesh = (axis.vertices, axis.radius, triangles, np.ascontiguousarray(axis.edges))
-    one = medial.reduce_sphere_mesh(*mesh, 50, threads=1)
-    for part, other in zip(one, medial.reduce_sphere_mesh(*mesh, 50, threads=3), strict=True):
-        assert part.tobytes() == other.tobytes()
-    size = 2.0**30
-    large = medial.reduce_sphere_mesh(size * axis.vertices, size * axis.radius, *mesh[2:], 50)
-    assert np.array_equal(large[0], size * one[0]) and np.array_equal(large[1], size * one[1])
-    assert np.array_equal(large[2], one[2])
-
-
-def test_cancelled(medial):
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        medial.reduce_sphere_mesh(*grid(60, 60), 10, progress=progress)
-
-
 # --- what is refused
 
 

@@ -170,18 +170,6 @@ def test_the_largest_and_smallest_coordinates(scale):
     assert np.array_equal(found.points, scale * prepared((points, triangles))[1].points)
 
 
-def test_threads_and_scale_change_nothing(medial):
-    points = sphere(0.3)[0]
-    given = points, points / np.linalg.norm(points, axis=1)[:, None]
-    measure = medial.surface_noise(*given, threads=1)
-    one = medial.smooth_vertices(*given, measure, threads=1)
-    assert np.array_equal(one, medial.smooth_vertices(*given, measure, threads=3))
-    large = points * 2.0**40, given[1]
-    assert np.array_equal(
-        medial.smooth_vertices(*large, medial.surface_noise(*large)), one * 2.0**40
-    )
-
-
 def test_normals_have_to_fit(medial):
     points = sphere(0.0)[0]
     with pytest.raises(ValueError, match="one normal per point"):

@@ -34,6 +34,7 @@ def prepare(points, **options):
 # ---- the measure
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("name", ["ellipsoid", "torus", "box"])
 @pytest.mark.parametrize("noise", [0.1, 0.25, 0.5, 1.0])
 def test_noise_is_measured(medial, name, noise):
@@ -43,6 +44,7 @@ def test_noise_is_measured(medial, name, noise):
     assert found.noise == pytest.approx(noise * spacing, rel=0.1)
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("noise", [0.1, 0.25, 0.35])
 def test_noise_of_thin_walls_is_measured(medial, noise):
     """Walls of three spacings: only small neighbourhoods have one wall, and larger ones a plateau of two."""
@@ -52,6 +54,7 @@ def test_noise_of_thin_walls_is_measured(medial, noise):
     assert found.kurtosis > 2.3 and found.mates == 0.0
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("name", ["ellipsoid", "torus", "box", "slab", "knot", "shell"])
 def test_clean_points_stay_the_same(name):
     points, _ = noisy(SHAPES[name], 0.0)
@@ -103,6 +106,7 @@ def test_views_that_do_not_fit_are_told_from_errors(medial, apart):
     assert found.noise > 0.1 * found.spacing and found.mates > 1.45
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("name", ["torus", "box", "knot"])
 @pytest.mark.parametrize("noise", [0.25, 0.5, 1.0])
 def test_errors_have_few_pairs_at_the_same_height(medial, name, noise):
@@ -147,18 +151,10 @@ def test_threads_and_rows_change_nothing(medial):
     assert np.array_equal(three.points[by_row], one.points)
 
 
-def test_scale_changes_units_only(medial):
-    points, _ = noisy(SHAPES["torus"], 0.5)
-    small, large = (
-        medial.prepare_scan(p, medial.measure_scan(p)) for p in (points, points * 2.0**40)
-    )
-    assert np.array_equal(small.rows, large.rows)
-    assert np.array_equal(small.points * 2.0**40, large.points)
-
-
 # ---- the result, and the words
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "betti"), [("ellipsoid", (1, 0, 0)), ("torus", (1, 1, 0)), ("slab", (1, 0, 0))]
 )
@@ -174,6 +170,7 @@ def test_noise_of_half_a_spacing_leaves_the_topology(name, betti):
     assert not any("too sparse" in warning for warning in (*off.warnings, *found.warnings))
 
 
+@pytest.mark.turn
 def test_noise_of_thin_walls_leaves_the_topology():
     """Without Prepare there are loops."""
     points, _ = noisy(SHAPES["shell"], 0.25, 12_000)

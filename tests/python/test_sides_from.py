@@ -308,14 +308,6 @@ def test_every_option_has_an_effect(medial, options):
 
 
 @pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
-def test_cancelled_before_it_starts(medial, call):
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        getattr(medial, call)(CLOUD, progress=progress)
-
-
-@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
 @pytest.mark.parametrize("when", [0.02, 0.7, 0.92])
 def test_cancel_from_another_thread(medial, call, when):
     points = SHAPES["torus"].random_sample(30_000, 0)
@@ -375,11 +367,6 @@ def test_points_without_volume(study, call, points):
     with pytest.raises(study.DegenerateInputError) as error:
         getattr(study, call)(points)
     one_sentence(error)
-
-
-def test_threads_must_not_be_negative(medial):
-    with pytest.raises(medial.InvalidInputError):
-        medial.TightCocone(CLOUD, threads=-1)
 
 
 def test_normals_say_nothing_beyond_the_samples(medial):

@@ -108,13 +108,6 @@ def test_duplicates_and_order_of_rows(medial):
     )
 
 
-def test_threads_change_no_byte(medial):
-    points = SHAPES["torus"].random_sample(20_000, 0)
-    normals = SHAPES["torus"].normals(points)
-    one, two = (medial.MedialAnalysis(points, normals=normals, threads=n) for n in (1, 2))
-    assert one.solid_triangles().tobytes() == two.solid_triangles().tobytes()
-
-
 def test_no_sides_no_solid(medial):
     analysis = medial.MedialAnalysis(BALL[0], sides=medial.SidesFrom.NONE)
     with pytest.raises(medial.InvalidInputError, match=r"^Expected .*found.*NONE; choose"):
@@ -246,12 +239,3 @@ def test_buried_checks_its_input(medial, arguments, word):
     assert re.match(rf"^Expected .*{word}.*found.+;", str(error.value)) or re.match(
         rf"^Expected finite.*found.*;.*{word.split()[-1]}", str(error.value)
     )
-
-
-def test_cancel(medial):
-    progress = medial.Progress()
-    medial.buried(POINTS, NORMALS, 1e-3, *BALL, progress=progress)
-    assert progress.fraction == 1.0 and progress.stage == "Buried surface"
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        medial.buried(POINTS, NORMALS, 1e-3, *BALL, progress=progress)

@@ -13,6 +13,7 @@ def dumb_bell(thick, wide):
     return union(((0.0, 0, 0), (1.0, 1, 1)), bar, ((2.0, 0, 0), (3.0, 1, 1)))
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("pose", [0, 1])
 @pytest.mark.parametrize(
     ("thick", "wide"), [(0.01, 0.01), (0.02, 0.02), (0.005, 0.005), (0.01, 0.04)]

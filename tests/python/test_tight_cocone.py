@@ -208,13 +208,6 @@ def test_meshes_without_their_faces(medial, data_file, file):
 # ---- changes that must not matter
 
 
-@pytest.mark.parametrize("name", ["torus", "two balls", "genus 2"])
-@pytest.mark.parametrize("threads", [1, 2, 3, 0])
-def test_thread_count_changes_no_byte(medial, surface_of, name, threads):
-    n = SIZES.get(name, 2000)
-    assert_same(surface_of(name, n), medial.TightCocone(samples(name, n), threads=threads))
-
-
 ARRAYS = ("triangles", "cell_side", "samples", "flat", "good", "on_surface")
 COUNTS = ("nonmanifold_edges", "nonmanifold_vertices", "cavities", "inner_cells", "duplicates")
 

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is assumed, left out or refused is told in a sentence: a table of inputs, settings and words."""
+
+import re
+from functools import cache
+
+import medial_axis
+import numpy as np
+import pytest
+from support.clouds import on_ellipsoid
+from support.meshes import icosphere, join, torus
+
+BY_VERTICES = {"sampling": "vertices", "form": "published", "prepare": "off"}
+FEW = {"sampling": "surface", "samples": 1000}
+
+
+def cloud(points, normals=None):
+    return points, None, normals
+
+
+def egg(subdivisions=2):
+    points, triangles = icosphere(subdivisions)
+    return points * (1.0, 0.7, 0.5), triangles
+
+
+def rod():
+    """A closed ball that goes over into thin rods."""
+    points, triangles = icosphere(5)
+    points[:, 1:] *= 0.15 + 0.85 * np.exp(-((2.2 * points[:, :1]) ** 2))
+    return points * (3.0, 1.0, 1.0), triangles
+
+
+def noisy():
+    shaken = np.random.default_rng(3).normal(scale=0.01, size=(5000, 3))
+    return cloud(on_ellipsoid(5000)[0] + shaken)
+
+
+def with_a_cavity():
+    points, _ = on_ellipsoid(6000)
+    return cloud(np.concatenate([points, 0.4 * points[::4]]))
+
+
+def bowl():
+    points, _ = on_ellipsoid(6000)
+    return cloud(points[points[:, 2] > -0.2])
+
+
+def loose():
+    points, triangles = egg()
+    return np.concatenate([points, np.full((3, 3), 0.1)]), triangles
+
+
+def doubled():
+    points, triangles = egg()
+    return join((points, triangles), (points, triangles[:, ::-1]))
+
+
+def overlapping():
+    points, triangles = icosphere(3)
+    return join((points, triangles), (points + np.array([1.2, 0.0, 0.0]), triangles))
+
+
+SHAPES = {
+    "dust": lambda: cloud(np.random.default_rng(2).normal(size=(300, 3))),
+    "scan": lambda: cloud(on_ellipsoid()[0]),
+    "scan with normals": lambda: cloud(*on_ellipsoid()),
+    "scan with inward normals": lambda: cloud(on_ellipsoid()[0], -on_ellipsoid()[1]),
+    "scan with normals of zeros": lambda: cloud(on_ellipsoid()[0], np.zeros((2000, 3))),
+    "noisy scan": noisy,
+    "scan with a cavity": with_a_cavity,
+    "scan of a bowl": bowl,
+    "egg": egg,
+    "dense egg": lambda: egg(5),
+    "open egg": lambda: (egg()[0], egg()[1][10:]),
+    "egg with loose points": loose,
+    "egg of doubled faces": doubled,
+    "two balls in each other": overlapping,
+    "rod": rod,
+    "square": lambda: ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]),
+    "torus": torus,
+}
+
+
+@cache
+def computed(name, **settings):
+    return medial_axis.compute(*SHAPES[name](), **settings)
+
+
+def said(found):
+    """All sentences of a computation."""
+    inside = f"Inside from {found.sides.source.name}: {found.sides.reason}"
+    return "\n".join([inside, found.chosen.reason, str(found.density), *found.warnings])
+
+
+TOLD = [
+    ("scan", BY_VERTICES, "TIGHT_COCONE: the points have no faces and no normals"),
+    ("scan", {}, "vertices, there are no faces"),
+    ("scan with normals", BY_VERTICES, "NORMALS: the points have no faces$"),
+    ("scan with normals of zeros", BY_VERTICES, "TIGHT_COCONE: .* no faces and no normals"),
+    ("scan with inward normals", {**BY_VERTICES, "side": "both"}, "the normals point inward"),
+    ("dust", {**BY_VERTICES, "side": "both"}, "enclose nothing, so inner and outer facets mean"),
+    ("noisy scan", BY_VERTICES, "noise of about 0.33 spacings was found and left as it is"),
+    ("noisy scan", BY_VERTICES, "points are not on the surface that Tight Cocone found"),
+    ("noisy scan", BY_VERTICES, r"touches itself at \d+ edges"),
+    ("noisy scan", BY_VERTICES, "do not look like samples of a smooth surface"),
+    ("noisy scan", {}, "the points were moved by 0.23 spacings in the median"),
+    ("scan with a cavity", {**BY_VERTICES, "sides": "tight-cocone"}, "walls of closed cavities"),
+    ("scan with a cavity", BY_VERTICES, r"POLES: .* of \d\d% of the points contradict Tight"),
+    ("scan of a bowl", BY_VERTICES, "closed openings, by .* more than 10 times as wide as most"),
+    ("egg", BY_VERTICES, "SURFACE: the faces are closed"),
+    ("egg", {}, "the vertices are too sparse, epsilon above 0.25 at"),
+    ("dense egg", {}, "The 10,242 vertices, dense enough"),
+    ("egg", {**BY_VERTICES, "sides": "poles"}, "POLES: as chosen"),
+    ("open egg", BY_VERTICES, "SURFACE: the winding number .* open at 20 edges"),
+    ("open egg", {**BY_VERTICES, "sides": "surface"}, "open at 20 edges: inside was taken to be"),
+    ("egg with loose points", FEW, "3 vertices without a face were left out"),
+    ("egg of doubled faces", FEW, "lie on another face"),
+    ("two balls in each other", FEW, "left out because the surface there bounds nothing"),
+    ("rod", {"sampling": "adaptive", "samples": 1500}, "closer together where it is thin, in"),
+    (
+        "rod",
+        {"sampling": "adaptive", "samples": 1000, "budget": 1500, "epsilon": 0.05},
+        "until the budget of 1,500 was spent",
+    ),
+]
+
+
+def name_of(row):
+    name, settings, words = row
+    return f"{name}, {settings}, {words}"
+
+
+@pytest.mark.parametrize("row", TOLD, ids=name_of)
+def test_what_is_told(row):
+    name, settings, words = row
+    sentences = said(computed(name, **settings))
+    assert re.search(words, sentences, re.MULTILINE), sentences
+
+
+NOT_TOLD = [
+    ("scan with normals", BY_VERTICES, "noise"),
+    ("noisy scan", BY_VERTICES, "too sparse"),  # more points of this noise would not help
+    ("torus", {}, "left out"),
+]
+
+
+@pytest.mark.parametrize("row", NOT_TOLD, ids=name_of)
+def test_what_is_not_told(row):
+    name, settings, words = row
+    assert words not in said(computed(name, **settings))
+
+
+REFUSED = [
+    ("dust", BY_VERTICES, "found 289 of 300 that enclose nothing; sample more densely"),
+    ("dust", {**BY_VERTICES, "side": "outer"}, "that enclose nothing; .* or choose side Both"),
+    ("scan", {"sides": "normals"}, "attribute 'normal' of the points, .* not all zero"),
+    ("scan", {"sides": "surface"}, "faces for Inside Decided By Surface, found points only"),
+    ("scan", {"sampling": "surface"}, "faces for Sampling Surface, found points only"),
+    ("scan", {"sampling": "adaptive"}, "faces for Sampling Adaptive, found points only"),
+    ("egg", {"sides": "normals", **BY_VERTICES}, "attribute 'normal' of the points"),
+    ("square", {}, "in one plane; give them thickness"),
+]
+
+
+@pytest.mark.parametrize("row", REFUSED, ids=name_of)
+def test_what_is_refused(row):
+    name, settings, words = row
+    with pytest.raises(medial_axis.MedialAxisError, match=f"^Expected .*{words}") as caught:
+        computed(name, **settings)
+    assert "\n" not in str(caught.value)
