@@ -21,7 +21,6 @@ from .effort import EFFORT
 from .nearness import nearest
 from .sample_spacing import next_amount
 from .sharp_angle import sharp_angle_of
-from .triangles import smooth_bends
 from .worst_doubt import WorstDoubt, worst_doubt
 
 if TYPE_CHECKING:
@@ -327,5 +326,5 @@ def _sharp_on_flat(request: Request, samples: AnalysedSamples) -> float:
     if walls is None or not (walls.are_bulging or walls.are_flat):
         return 0.0
     sharp = sharp_angle_of(request.shape, request.settings)
-    bent = smooth_bends(request.shape, sharp)[walls.faces[walls.bulges]]
+    bent = request.shape.smooth_bends(sharp)[walls.faces[walls.bulges]]
     return max(float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, _LEAST_SHARP)

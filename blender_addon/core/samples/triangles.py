@@ -7,13 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..portable_angle import angle_of
-from ..small_matrices import dot
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from .shape import Shape
 
 # At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
@@ -29,12 +24,3 @@ def unit_normals(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDA
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
     return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths
-
-
-def smooth_bends(shape: Shape, sharp: float) -> NDArray[np.float64]:
-    """(m,) the largest angle between the normals of each face and one beside it over an edge that is not sharp."""
-    normals, _ = unit_normals(shape.points[shape.triangles])
-    cosines = np.clip(dot(normals[:, None], normals[shape.neighbours]), -1.0, 1.0)
-    angles = angle_of(cosines, np.sqrt(1.0 - cosines**2))
-    counted = (shape.neighbours >= 0) & (angles < sharp)
-    return np.where(counted, angles, 0.0).max(axis=1, initial=0.0)
