@@ -20,11 +20,13 @@ from medial_axis.core.settings import (
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.shape.triangles import unit_normals
 from medial_axis.core.thickness import thickness
+from medial_axis.core.thickness.face_gaps import face_gaps
 from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.thickness.thicken import _left_over, thicken
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_in_part import subdivided
 from medial_axis.core.thickness.thin_parts import Patch, ThinParts
+from scipy.spatial import cKDTree
 from support import thin_solids, topology
 from support.meshes import read, write_off
 from support.thick_meshes import block, ellipsoid, joined, shell
@@ -159,11 +161,25 @@ def spike_over_a_plate():
 def test_faces_never_pass_through_each_other():
     """The middle of the large triangle has no gap, so only the faces afterwards tell."""
     blade = block(0.01, 0.6, 0.47, (0.405, 0.5, 0.265))
-    for mesh in (spike_over_a_plate(), joined(block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01)), blade)):
+    plate = block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01))
+    for mesh, gap in ((spike_over_a_plate(), 0.002), (joined(plate, blade), 0.01)):
         found = thickened(mesh, 0.1)
+        assert found.gap == pytest.approx(gap, rel=1e-6)
+        assert any(f"across gaps down to {gap:.3g}," in text for text in found.warnings)
         assert not len(found.after.shape.crossing)
         assert found.moves.any() and any("run into each other" in text for text in found.warnings)
         assert not any("coarse faces" in text for text in found.warnings)
+
+
+def test_gaps_of_faces_are_those_of_their_nearest_places():
+    """Against the least of many places on both, for triangles that do not meet."""
+    random = np.random.default_rng(4)
+    first, second = random.normal(size=(2, 40, 3, 3))
+    second[:, :, 0] += 5.0
+    weights = random.dirichlet((0.3, 0.3, 0.3), 4000)
+    places = [np.einsum("wc,pcx->pwx", weights, corners) for corners in (first, second)]
+    for gap, a, b in zip(face_gaps(first, second), *places, strict=True):
+        assert gap <= cKDTree(a).query(b)[0].min() <= gap + 0.1
 
 
 @pytest.mark.parametrize(

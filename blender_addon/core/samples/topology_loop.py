@@ -18,7 +18,7 @@ from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
 from ..shape.nearness import nearest
-from ..shape.sharp_angle import sharp_angle_of, smooth_bends
+from ..shape.sharp_angle import sharp_angle_of
 from .effort import EFFORT
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt
@@ -326,5 +326,5 @@ def _sharp_on_flat(request: Request, samples: AnalysedSamples) -> float:
     if walls is None or not (walls.are_bulging or walls.are_flat):
         return 0.0
     sharp = sharp_angle_of(request.shape, request.settings)
-    bent = smooth_bends(request.shape, sharp)[walls.faces[walls.bulges]]
+    bent = request.shape.smooth_bends(sharp)[walls.faces[walls.bulges]]
     return max(float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, _LEAST_SHARP)

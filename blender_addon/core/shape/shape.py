@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
+from ..portable_angle import angle_of
 from ..small_matrices import dot
 from .nearness import same_place
 from .triangles import unit_normals
@@ -144,6 +145,14 @@ class Shape:
         order = np.argsort(keys, kind="stable")
         row = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
         return np.where(keys[row] == wanted, row // 3, -1).reshape(-1, 3).astype(np.int64)
+
+    def smooth_bends(self, sharp: float) -> NDArray[np.float64]:
+        """(m,) the largest angle between the normals of each face and one beside it over an edge that is not sharp."""
+        normals, _ = unit_normals(self.points[self.triangles])
+        cosines = np.clip(dot(normals[:, None], normals[self.neighbours]), -1.0, 1.0)
+        angles = angle_of(cosines, np.sqrt(1.0 - cosines**2))
+        counted = (self.neighbours >= 0) & (angles < sharp)
+        return np.where(counted, angles, 0.0).max(axis=1, initial=0.0)
 
     @cached_property
     def unfolded(self) -> NDArray[np.int64]:

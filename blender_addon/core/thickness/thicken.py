@@ -26,6 +26,7 @@ from ..shape.outward_faces import outward_shape
 from ..shape.sharp_angle import sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
+from .face_gaps import face_gaps
 from .face_lengths import are_enough, first_rows
 from .fans import fans_of
 from .measurement import Measurement
@@ -46,9 +47,6 @@ _OF_GAP = 0.45  # the share of a gap that a wall may take: the opposite wall tak
 _BEYOND = 1e-4  # walls gain this share of the limit more, so that few rounds leave none below it
 _HALVINGS = 5  # of the way of faces that would pass through others, before they stay
 _FARTHEST = 3.0  # times the largest gain: no vertex moves farther
-_CROSSED = (
-    "walls would run into each other where they gained all that they lack, so they gained less"
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +128,7 @@ def thicken(
     after = measured(walls.shape_of(moves), Edges.EXTRAPOLATE)
     left = find_thin_parts(after, wanted.limit)
     met = crossed or overlap
-    told = [_CROSSED] if met else []
+    told = [walls.crossed()] if met else []
     warnings = (*walls.warnings(), *told, *_left_over(left, bool(moves.any()), met))
     seconds = time.perf_counter() - start
     return Thickened(moves, before, after, left, walls.narrowest, warnings, seconds)
@@ -253,7 +251,7 @@ class _Walls:
         self._most = np.full(len(self._fans.vertex), np.inf)
         self._asked = np.zeros(len(self._fans.vertex), bool)
         self._held = np.zeros(len(self._shape.points), bool)
-        self.narrowest = float("inf")
+        self.narrowest = self._met = float("inf")
 
     def _staying(self, selected: NDArray[np.bool_] | None) -> NDArray[np.bool_]:
         """(k,) the fans that stay where they are: those of triangles that are not selected, if only these move."""
@@ -354,8 +352,28 @@ class _Walls:
             if not len(pairs):
                 return moved, number > 0
             number += 1
-            rows = self._triangles[np.concatenate(np.divmod(pairs, len(self._triangles)))]
+            low, high = np.divmod(pairs, len(self._triangles))
+            self._met = min(self._met, self._gap_between(low, high))
+            rows = self._triangles[np.concatenate((low, high))]
             share[np.unique(rows)] *= 0.5 if number <= _HALVINGS else 0.0
+
+    def _gap_between(self, low: NDArray[np.int64], high: NDArray[np.int64]) -> float:
+        """Return the least gap that there was between pairs of faces that share no corner."""
+        shared = self._triangles[low][:, :, None] == self._triangles[high][:, None]
+        apart = ~shared.any(axis=(1, 2))
+        corners = self._shape.points[self._triangles]
+        gaps = face_gaps(corners[low[apart]], corners[high[apart]])
+        return float(gaps.min(initial=np.inf))
+
+    def crossed(self) -> str:
+        """Say that faces would pass through each other, and across which gap, which is the narrowest then."""
+        if not self._met < np.inf:
+            return "walls would run into each other where they gained all that they lack, so they gained less"
+        self.narrowest = min(self.narrowest, self._met)
+        return (
+            "walls would run into each other where they gained all that they lack, across gaps down to "
+            f"{self._met:.3g}, so they gained less"
+        )
 
     def _pairs(self, shape: Shape) -> NDArray[np.int64]:
         """(p,) a number for each pair of faces that pass through each other."""
@@ -381,9 +399,10 @@ class _Walls:
         wanted = self._share * self._wanted.limit
         narrow = gaps[gaps * _OF_GAP < wanted]
         if len(narrow):
-            self.narrowest = float(narrow.min())
+            least = float(narrow.min())
+            self.narrowest = min(self.narrowest, least)
             found.append(
-                f"gaps down to {self.narrowest:.3g} are narrower than what their walls may gain; there the walls gain "
+                f"gaps down to {least:.3g} are narrower than what their walls may gain; there the walls gain "
                 "less, so that they do not meet; Measure Gap shows where"
             )
         if self._held.any():
