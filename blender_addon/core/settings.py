@@ -503,6 +503,14 @@ class KeptLoops(Enum):
     OPEN = "OPEN"
 
 
+class Fill(Enum):
+    """Whether hollow solids count as full ones, and what their radii are."""
+
+    OFF = "OFF"
+    OUTSIDE = "OUTSIDE"
+    INSIDE = "INSIDE"
+
+
 @dataclass(frozen=True)
 class SkeletonSettings(Options):
     """The branches that a skeleton keeps, and how exactly it follows its curve."""
@@ -540,6 +548,17 @@ class SkeletonSettings(Options):
                 "Open",
                 "None: as Automatic, and then each loop is opened where it is thinnest",
             ),
+        },
+    )
+
+    fill: Fill = choice(
+        "Fill",
+        "Pipes, vessels and cups have the line of their outer faces: cavities and bores count as full",
+        default=Fill.OFF,
+        items={
+            Fill.OFF: ("Off", "Walls have a skeleton of their own"),
+            Fill.OUTSIDE: ("Radius Outside", "Radii are those of the outer faces"),
+            Fill.INSIDE: ("Radius Inside", "Radii are those of the bore, where there is one"),
         },
     )
 

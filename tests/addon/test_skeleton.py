@@ -149,6 +149,20 @@ def test_running_again_updates_the_same_curve_and_keeps_its_bevel():
     assert len([t for t in bpy.data.objects if "ma_ends" in t]) == 1
 
 
+@pytest.mark.parametrize(("fill", "radius"), [("OUTSIDE", 0.5), ("INSIDE", 0.4)])
+def test_a_hollow_pipe_has_one_line_when_it_is_filled(fill, radius):
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.5, depth=6.0, end_fill_type="NOTHING")
+    source = bpy.context.object
+    source.modifiers.new("Wall", "SOLIDIFY").thickness = 0.1
+    extract(fill=fill, sampling="SURFACE")
+    thing = skeleton_of(source)
+    assert (thing["ma_ends"], thing["ma_branches"], thing["ma_loops"]) == (2, 1, 0)
+    points = [point for spline in thing.data.splines for point in spline.points]
+    middle = [point.radius for point in points if abs(point.co.z) < 2.0]
+    assert middle == pytest.approx([radius] * len(middle), abs=0.02)
+    assert max(np.hypot(point.co.x, point.co.y) for point in points) < 0.5
+
+
 def test_detail_says_how_many_ends():
     source = cross()
     extract(detail=0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is assumed, left out or refused is told in a sentence: a table of inputs, settings and words."""
+"""This file says what is assumed, left out or refused is told in a sentence: a table of inputs, settings and words."""
 
 import re
 from functools import cache

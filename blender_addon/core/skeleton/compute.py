@@ -22,11 +22,12 @@ from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
-from ..settings import KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
+from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
+from .fill import Filled, filled
 from .forks import draw_forks
 from .inscribe import inscribe
 from .join_pieces import join_pieces
@@ -35,7 +36,7 @@ from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
 from .simplify import kept_points
 from .skeleton import Skeleton, skeleton_of
-from .warnings import skeleton_warnings
+from .warnings import fill_warnings, skeleton_warnings
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -120,8 +121,14 @@ def compute_skeleton(
         The samples span no volume, enclose nothing, or enclose a solid without a curve.
     """
     _check_ends(ends)
+    full = None if wanted.fill is Fill.OFF else filled(shape)
     begun = begin(
-        shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS, levels=True
+        full.shape if full else shape,
+        replace(settings, side=Side.INNER),
+        progress,
+        limit,
+        _ANALYSIS,
+        levels=True,
     )
     chosen = begun.chosen
     if shown is None or ends is not None:
@@ -141,7 +148,9 @@ def compute_skeleton(
         inscribe(net, depth, plane)
     outside = keep_inside(net, depth)
     place = places(net, names).of(net.stands_for()[owner])
-    sample = _samples_of_vertices(shape, chosen)
+    sample = _samples_of_vertices(shape, chosen, full is None or full.shape is shape)
+    if full is not None and wanted.fill is Fill.INSIDE:
+        _shrink(net, shape, full)
     curve = _whole(net, names)
     return Skeletonization(
         shape=shape,
@@ -155,6 +164,7 @@ def compute_skeleton(
         warnings=(
             *solid_warnings(begun.shape, Side.INNER, decided, chosen, level.betti),
             *skeleton_warnings(loops, len(level.generators), outside, joined),
+            *fill_warnings(full),
         ),
         seconds=begun.seconds,
     )
@@ -254,10 +264,22 @@ def _thinned(net: Net, names: list[int], simplify: float, depth: Depth) -> Skele
     return _whole(net, names)
 
 
-def _samples_of_vertices(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int64]:
-    """Return the sample nearest to each vertex of the shape, (v,)."""
+def _shrink(net: Net, shape: Shape, full: Filled) -> None:
+    """Give the balls of a net the radius of the bore, where they reach farther."""
+    if len(full.inner):
+        with native.own_errors() as module:
+            room = module.surface_distances(net.points, shape.points, full.inner)
+        np.minimum(net.radius, room, out=net.radius)
+
+
+def _samples_of_vertices(
+    shape: Shape, chosen: ChosenSamples, own: bool = True
+) -> NDArray[np.int64]:
+    """Return the sample nearest to each vertex of the shape, (v,); `own` says whether samples may be its vertices."""
     samples = chosen.samples
     distinct = samples.analysis.samples
-    if samples.kinds is None and len(distinct) == len(shape.points):  # they are the vertices
+    if (
+        own and samples.kinds is None and len(distinct) == len(shape.points)
+    ):  # they are the vertices
         return np.arange(len(distinct))
     return distinct[nearest(shape.points, samples.points[distinct])]

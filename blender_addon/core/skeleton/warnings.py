@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..samples.density import percent
+
 if TYPE_CHECKING:
     from ..curves.rules import Loops
+    from .fill import Filled
 
 
 def skeleton_warnings(loops: Loops, sheets: int, outside: int, joined: int = 0) -> list[str]:
@@ -46,3 +49,12 @@ def skeleton_warnings(loops: Loops, sheets: int, outside: int, joined: int = 0) 
     if loops.filled:
         found.append(f"{loops.filled:,} loops round pinholes were filled")
     return found
+
+
+def fill_warnings(full: Filled | None) -> list[str]:
+    """Return what was filled, as a sentence; none where that was not asked for."""
+    if full is None:
+        return []
+    if not len(full.inner):
+        return ["nothing is hollow, so Fill changed nothing"]
+    return [f"{percent(full.share)} of the faces lie inside of others, and were filled"]

@@ -22,6 +22,7 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
             "detail",
             "per_limb",
             "mirror",
+            "fill",
             "bind",
         ):  # the others are in the panels of the operators
             draw_setting(column, context.scene.medial_axis_skeleton, name)

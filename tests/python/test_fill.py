@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fill: hollow pipes, ducts, cups and bottles have the line of their outer faces, with either radius."""
+
+import json
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.rig.rig import compute_rig
+from medial_axis.core.settings import Fill, Settings, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.skeleton.fill import filled
+from support.meshes import write_off
+from support.thick_meshes import block, lathe, shell
+
+BEND, OUTSIDE, INSIDE = 5.0, 1.0, 0.8
+
+
+def shape_of(mesh):
+    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+
+
+def bent_pipe(turn=np.pi / 2, rings=40, around=32):
+    """A pipe with flat ends along an arc round Z."""
+    along, round_it = np.linspace(0.0, turn, rings), 2 * np.pi * np.arange(around) / around
+    rows = np.arange(2 * rings * around).reshape(2, rings, around)
+    points = [
+        np.column_stack(
+            (
+                (BEND + radius * np.cos(round_it)) * np.cos(angle),
+                (BEND + radius * np.cos(round_it)) * np.sin(angle),
+                radius * np.sin(round_it),
+            )
+        )
+        for radius in (OUTSIDE, INSIDE)
+        for angle in along
+    ]
+    after = np.roll(rows, -1, axis=2)
+    quads = [
+        (rows[0, :-1], rows[0, 1:], after[0, 1:], after[0, :-1]),
+        (rows[1, :-1], after[1, :-1], after[1, 1:], rows[1, 1:]),
+        (rows[0, :1], after[0, :1], after[1, :1], rows[1, :1]),
+        (after[0, -1:], rows[0, -1:], rows[1, -1:], after[1, -1:]),
+    ]
+    quads = np.concatenate([np.stack(corners, axis=-1).reshape(-1, 4) for corners in quads])
+    triangles = np.concatenate((quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]))
+    return np.concatenate(points), triangles
+
+
+def duct():
+    """A T of square ducts, 7 outside and 5 inside, along X from -16 to 16 and along Y from 0 to 16."""
+    cells = np.zeros((33, 22, 9), bool)
+    for half, full in ((3, True), (2, False)):
+        cells[:, 4 - half : 5 + half, 4 - half : 5 + half] = full
+        cells[16 - half : 17 + half, 4:, 4 - half : 5 + half] |= full
+        if not full:
+            cells[16 - half : 17 + half, 4:, 4 - half : 5 + half] = False
+    cells = np.pad(cells, 1)
+    squares = []
+    for axis in range(3):
+        one, two = (axis + 1) % 3, (axis + 2) % 3
+        for side in (0, 1):
+            there = cells & ~np.roll(cells, 1 - 2 * side, axis)
+            at = np.argwhere(there)
+            corners = np.repeat(at[:, None], 4, axis=1)
+            corners[:, :, axis] += side
+            turns = [(0, 0), (1, 0), (1, 1), (0, 1)][:: 1 if side else -1]
+            corners[:, :, [one, two]] += np.array(turns)
+            squares.append(corners)
+    squares = np.concatenate(squares)
+    points, row = np.unique(squares.reshape(-1, 3), axis=0, return_inverse=True)
+    row = row.reshape(-1, 4)
+    return points - (17.5, 5.5, 5.5), np.concatenate((row[:, [0, 1, 2]], row[:, [0, 2, 3]]))
+
+
+CUP = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.9, 3.0), (0.9, 0.1), (0.0, 0.1)]
+BOTTLE = [
+    (0, 0),
+    (1, 0),
+    (1, 2),
+    (0.4, 3),
+    (0.4, 4),
+    (0.3, 4),
+    (0.3, 3),
+    (0.9, 2),
+    (0.9, 0.1),
+    (0, 0.1),
+]
+
+
+@pytest.mark.parametrize("profile", [CUP, BOTTLE], ids=["cup", "bottle"])
+def test_vessels_are_filled_to_their_lip(profile):
+    """The bottom of a cup has no wall before it, but lies within the wall round it."""
+    found = filled(shape_of(lathe(profile)))
+    outer = [*profile[: len(profile) // 2], (0.0, profile[len(profile) // 2 - 1][1])]
+    assert found.shape.volume == pytest.approx(shape_of(lathe(outer)).volume, rel=1e-12)
+    assert found.shape.open_edges == 0 and found.shape.solid_betti == (1, 0, 0)
+
+
+def test_bores_and_cavities_are_filled():
+    for mesh, loops in ((bent_pipe(), 1), (duct(), 2), (shell(), 0)):
+        shape = shape_of(mesh)
+        assert shape.solid_betti == (1, loops, 0 if loops else 1)
+        found = filled(shape)
+        assert found.shape.solid_betti == (1, 0, 0) and 0.3 < found.share < 0.5
+    assert filled(shape_of(duct())).shape.volume == pytest.approx(
+        7 * 7 * (33 + 14.5 - 0.0), rel=0.02
+    )
+
+
+def test_a_bent_pipe_has_its_arc_with_either_radius():
+    shape = shape_of(bent_pipe())
+    lines = []
+    for fill, radius in ((Fill.OUTSIDE, OUTSIDE), (Fill.INSIDE, INSIDE)):
+        found = compute_skeleton(shape, Settings(), SkeletonSettings(fill=fill))
+        line = found.skeleton
+        assert (line.count, line.tips, line.loops, line.pieces) == (1, 2, 0, 1)
+        away = np.hypot(np.hypot(*line.points[:, :2].T) - BEND, line.points[:, 2])
+        along = BEND * np.arctan2(line.points[:, 1], line.points[:, 0])
+        between = (along > 1.5 * OUTSIDE) & (along < BEND * np.pi / 2 - 1.5 * OUTSIDE)
+        assert away[between].max() < 0.02 and line.length > BEND * np.pi / 2 - 2.1 * OUTSIDE
+        np.testing.assert_allclose(line.radius[between], radius, rtol=0.01)
+        assert any("% of the faces lie inside of others" in said for said in found.warnings)
+        lines.append(found.curve.points)
+        assert len(found.parts.faces) == len(shape.triangles) and (found.parts.faces == 0).all()
+    np.testing.assert_array_equal(*lines)
+    assert compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton.loops == 1
+
+
+def test_a_branching_duct_has_a_fork(tmp_path, capsys):
+    out = tmp_path / "duct.json"
+    words = ["skeleton", write_off(tmp_path / "duct.off", duct()), str(out), "--json"]
+    assert cli.main([*words, "--fill", "inside"]) == cli.DONE
+    report = json.loads(capsys.readouterr().out)
+    assert (report["branches"], report["ends"], report["loops"]) == (3, 3, 0)
+    assert report["settings"]["fill"] == "inside"
+    found = json.loads(out.read_text())
+    places = np.array([node["position"] for node in found["nodes"]])
+    radii = np.array([node["radius"] for node in found["nodes"]])
+    off = np.minimum(np.abs(places[:, 1]), np.abs(places[:, 0]))
+    assert max(off.max(), np.abs(places[:, 2]).max()) < 0.5
+    far = np.abs(places).max(axis=1) > 5.0
+    assert np.median(radii[far]) == pytest.approx(2.5, abs=0.05)
+
+
+def test_bones_of_a_pipe_have_weights_on_both_walls():
+    rig = compute_rig(shape_of(bent_pipe()), Settings(), SkeletonSettings(fill=Fill.OUTSIDE))
+    assert rig.bones.count >= 2
+    np.testing.assert_allclose(rig.weight.sum(axis=1), 1.0)
+    half = len(rig.weight) // 2
+    assert (rig.bone[:half, 0] == rig.bone[half:, 0]).mean() > 0.9, "inner beside outer vertices"
+
+
+def test_what_is_not_hollow_stays():
+    shape = shape_of(block(3.0, 1.0, 1.0))
+    found = filled(shape)
+    assert found.shape is shape and found.share == 0.0
+    made = compute_skeleton(shape, Settings(), SkeletonSettings(fill=Fill.OUTSIDE))
+    assert "nothing is hollow, so Fill changed nothing" in made.warnings
+    with pytest.raises(InvalidInputError, match="Expected faces for Fill, found points only"):
+        filled(Shape(shape.points, np.zeros((0, 3), np.int32)))
