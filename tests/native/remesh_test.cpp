@@ -283,6 +283,21 @@ TEST(Remesh, APlaneSheetBecomesEvenAndKeepsItsArea) {
   EXPECT_LT(count, 2 * 40 * 40 / 8);
 }
 
+TEST(Remesh, TheCurvatureOfARolledSheetIsThatOfItsCylinder) {
+  constexpr double kRadius = 0.8;
+  EvenMesh even = plane_sheet(40);
+  for (const double curvature : curvatures(even, {})) EXPECT_EQ(curvature, 0);
+  for (Vec3& p : even.position) {
+    p = {kRadius * std::sin(p.x / kRadius), p.y, kRadius * std::cos(p.x / kRadius)};
+  }
+  for (int32_t t = 0; t < even.mesh.triangles(); ++t) settle_normal(even, t);
+  const auto curvature = curvatures(even, {});
+  for (int32_t v = 0; v < even.mesh.vertices(); ++v) {
+    if (even.mesh.stratum(v) != Stratum::sheet) continue;
+    EXPECT_NEAR(curvature[v] * kRadius, 1, 0.3) << v;  // the triangles are uneven
+  }
+}
+
 TEST(Remesh, TheHalfWidthOfASquareIsThatOfItsMiddle) {
   const EvenMesh even = plane_sheet(20);
   const auto width = half_widths(even.mesh, even.position);

@@ -397,10 +397,10 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("stairs", 20_000): {"err": 2e-4},
     ("plate", 4_000): {"cov": 1.3e-3, "cov_99": 6e-4, "gap": 0.03},
     ("plate", 20_000): {"cov_99": 2e-4, "gap": 0.035},
-    ("cone", 4_000): {"cov": 3.5e-3, "cov_99": 1.7e-3, "gap": 0.04},
+    ("cone", 4_000): {"cov": 3.5e-3, "cov_99": 1e-3, "gap": 0.04},
     ("cone", 20_000): {"cov": 2e-3, "cov_99": 7e-4},
-    ("cylinder", 4_000): {"err": 1.5e-2, "cov": 1.2e-2, "cov_99": 5e-3, "gap": 0.06},
-    ("cylinder", 20_000): {"err": 4e-3, "cov": 6e-3, "cov_99": 2.5e-3, "gap": 0.03},
+    ("cylinder", 4_000): {"err": 1.5e-2, "cov": 1.2e-2, "cov_99": 2e-3, "gap": 0.06},
+    ("cylinder", 20_000): {"err": 4e-3, "cov": 6e-3, "cov_99": 1e-3, "gap": 0.03},
     ("stadium", 4_000): {
         **{"err": 1.5e-2, "err_99": 3e-4, "cov": 1.5e-2, "cov_99": 6e-3, "gap": 0.06, "rim": 0.01}
     },

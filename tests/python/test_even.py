@@ -15,10 +15,10 @@ FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
 # Shares of the diagonal: what the worst hundredth of the axis is missed by, and the mean error of vertices.
 CURVED = {
-    "cylinder": (5e-3, 5e-5),
-    "cone": (2e-3, 1e-6),
+    "cylinder": (1e-3, 5e-5),
+    "cone": (1e-3, 1e-6),
     "plate": (1e-3, 1e-7),
-    "stadium": (3e-3, 5e-5),
+    "stadium": (1e-3, 5e-5),
     "oblate": (1e-3, 2e-4),
     "ellipsoid": (1e-3, 2e-4),
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This file says what is assumed, left out or refused is told in a sentence: a table of inputs, settings and words."""
+"""A table of inputs, settings and the words in which the program says what it assumes, leaves out or refuses."""
 
 import re
 from functools import cache

@@ -16,9 +16,10 @@ namespace {
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
 constexpr double kEdge = 2.8;  // the wanted length of an edge: 1.7 times the distance of samples
-constexpr double kLeastEdge = 1.3;       // in narrow sheets, where there is nothing to gain below
-constexpr double kLeastOfCurved = 0.65;  // where a sheet is curved
-constexpr double kMerged = 0.25;         // that Voronoi vertices of one place are apart
+constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
+// where a sheet is curved: half the distance of samples, below which they know no curvature
+constexpr double kLeastOfCurved = 0.8;
+constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
@@ -136,9 +137,9 @@ class EvenSheets {
   }
 
   void settle(EvenMesh& even, EvenPlaces& places, RemeshOptions& options) {
-    places.place();
-    follow_curvature(even);
     for (int round = 0; round < kRoundsAfterPlaces; ++round) {
+      places.place();
+      follow_curvature(even);
       one_round(even, options, 0.4 + 0.1 * round);
     }
     places.place();
@@ -151,26 +152,18 @@ class EvenSheets {
     places.place();
   }
 
-  // Two triangles that turn by an angle at their edge miss a curved sheet by about an eighth of
-  // their height times this angle.
+  // The chord of a curved line misses it by an eighth of its curvature times the squared length.
+  // The longest edge that is not split may miss the sheet so.
   void follow_curvature(EvenMesh& even) {
-    const SheetComplex& mesh = even.mesh;
+    const std::vector<double> curvature = curvatures(even, run_);
     const double chord = kChord * h_.complex.diagonal;
-    for (const auto& [a, b] : mesh.edges()) {
-      const auto& two = mesh.triangles_at(a, b);
-      if (two.size() != 2) continue;
-      const int32_t c = mesh.third_corner(two[0], a, b), d = mesh.third_corner(two[1], a, b);
-      const double turn = length(cross(even.normal[two[0]], even.normal[two[1]]));
-      const double miss = distance(even.position[c], even.position[d]) * turn / 16;
-      if (!(miss > chord)) continue;
-      const double shorter = std::sqrt(chord / miss);
-      for (const int32_t v : {a, b, c, d}) {
-        const double least = kLeastOfCurved * hole_[even.origin[v]];
-        const double wanted = shorter * distance(even.position[a], even.position[b]);
-        even.target[v] = std::min(even.target[v], std::max(least, wanted));
-      }
+    for (int32_t v = 0; v < even.mesh.vertices(); ++v) {
+      if (!(curvature[v] > 0)) continue;
+      const double least = kLeastOfCurved * hole_[even.origin[v]];
+      const double wanted = std::sqrt(8 * chord / curvature[v]) / kLong;
+      even.target[v] = std::min(even.target[v], std::max(least, wanted));
     }
-    spread_least(mesh, even.position, kSlope, even.target);
+    spread_least(even.mesh, even.position, kSlope, even.target);
   }
 
   Level& level_;

@@ -9,9 +9,6 @@
 namespace medial {
 namespace {
 
-// An edge longer than the first share of its target is split, one shorter than the second share is
-// collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
-constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
 constexpr double kCrumpled = 0.5;       // the cosine between facets of a sheet that is not flat
 constexpr double kFewCollapses = 0.01;  // of the vertices end the passes

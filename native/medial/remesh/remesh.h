@@ -10,6 +10,10 @@
 
 namespace medial {
 
+// An edge longer than the first share of its target is split, one shorter than the second share is
+// collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
+inline constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
+
 struct RemeshOptions {
   // Curves move to the middle of their neighbours, too, which takes the zigzag of samples off them;
   // else vertices of curves move along them only.

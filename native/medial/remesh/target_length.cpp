@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "base/parallel.h"
+
 namespace medial {
 namespace {
 
@@ -52,7 +54,81 @@ void raise_to_neighbours(const SheetComplex& mesh, std::vector<double>& values) 
   values = std::move(raised);
 }
 
+// Turns of a sheet at the edges of a vertex, times half of their lengths: the sum, and the same
+// with the edges' directions, doubled, in the plane across `normal`.
+struct Turns {
+  Vec3 normal;
+  double area = 0;  // a third of the triangles at the vertex
+  double sum = 0, along = 0, aslant = 0;
+
+  void add(double turn, const Vec3& edge) {
+    const auto [one, two] = across(normal);
+    const double x = dot(edge, one), y = dot(edge, two), squared = x * x + y * y;
+    if (!(squared > 0)) return;
+    const double weight = 0.5 * turn * std::sqrt(squared);
+    sum += weight;
+    along += weight * (x * x - y * y) / squared;
+    aslant += weight * 2 * x * y / squared;
+  }
+  double curvature() const {
+    const double deviator = std::sqrt(along * along + aslant * aslant);
+    return area > 0 ? 0.5 * (std::abs(sum) + deviator) / area : 0;
+  }
+};
+
+// Returns the sine of the angle by which a sheet turns at the edge of two triangles, positive if it
+// turns towards the normal of the first one.
+double turn_at(const EvenMesh& even, const Edge& edge, int32_t one, int32_t other) {
+  const auto& [a, b] = edge;
+  const auto goes_forth = [&](int32_t t) {
+    const Triangle& corners = even.mesh.triangle(t);
+    return corners[(corner_of(corners, a) + 1) % 3] == b;
+  };
+  const double sign = goes_forth(one) == goes_forth(other) ? -1 : 1;
+  const Vec3 turn = sign * cross(even.normal[one], even.normal[other]);
+  const Vec3 along = even.position[b] - even.position[a];
+  return std::copysign(length(turn), (goes_forth(one) ? 1 : -1) * dot(turn, along));
+}
+
+// Returns whether a vertex is inside a sheet or on its rim.
+bool has_one_sheet(const SheetComplex& mesh, int32_t v) {
+  if (!mesh.has_triangles(v) || mesh.stratum(v) == Stratum::node) return false;
+  return mesh.stratum(v) == Stratum::sheet || mesh.uses(v, mesh.along_curve(v)[0]) == 1;
+}
+
+// Returns the turns of all vertices of one sheet, still without a turn.
+std::vector<Turns> no_turns(const EvenMesh& even, const Run& run) {
+  std::vector<Turns> found(even.position.size());
+  parallel_for(even.mesh.vertices(), run, [&](int64_t id) {
+    const auto v = static_cast<int32_t>(id);
+    if (!has_one_sheet(even.mesh, v)) return;
+    found[v].normal = normal_at(even, v);
+    even.mesh.for_triangles(v, [&](int32_t t) {
+      const auto& [a, b, c] = even.mesh.triangle(t);
+      const auto& p = even.position;
+      found[v].area += length(cross(p[b] - p[a], p[c] - p[a])) / 6;
+    });
+  });
+  return found;
+}
+
 }  // namespace
+
+std::vector<double> curvatures(const EvenMesh& even, const Run& run) {
+  std::vector<Turns> at = no_turns(even, run);
+  for (const Edge& edge : even.mesh.edges()) {
+    const auto& two = even.mesh.triangles_at(edge[0], edge[1]);
+    if (two.size() != 2) continue;
+    const double turn = turn_at(even, edge, two[0], two[1]);
+    const Vec3 along = even.position[edge[1]] - even.position[edge[0]];
+    for (const int32_t v : edge) {
+      at[v].add(std::copysign(1, dot(even.normal[two[0]], at[v].normal)) * turn, along);
+    }
+  }
+  std::vector<double> found;
+  for (const Turns& turns : at) found.push_back(turns.curvature());
+  return found;
+}
 
 void spread_least(const SheetComplex& mesh, std::span<const Vec3> position, double slope,
                   std::vector<double>& values) {
