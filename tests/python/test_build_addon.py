@@ -373,7 +373,7 @@ def configured(tmp_path, monkeypatch):
     return of
 
 
-# What each command that compiles asks of the build; the native tests are among all targets.
+# Targets that each command that compiles asks of the build; the native tests are among all targets.
 COMPILED = {
     ("build", "--local"): {"_medial"},
     ("demo",): {"medial", "_medial"},

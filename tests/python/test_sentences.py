@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is assumed, left out or refused is told in a sentence: a table of inputs, settings and words."""
+"""A sentence tells all that is assumed, left out or refused: a table of inputs, settings and words."""
 
 import re
 from functools import cache
