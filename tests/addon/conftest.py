@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the installed add-on inside Blender; start them with run.py."""
 
-import sys
-from pathlib import Path
-
 import bpy
 import pytest
 from scene import addon
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from support.tiers import (  # noqa: F401 - found through the line above; pytest finds the hooks here
+from support.tiers import (  # noqa: F401 - found by the path that scene adds; pytest finds the hooks here
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,

@@ -6,10 +6,15 @@ import importlib
 import os
 import re
 import sys
+from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from support.clouds import on_ellipsoid
 
 MODULE = os.environ["MEDIAL_AXIS_MODULE"]
 
@@ -92,17 +97,6 @@ def torus(name="Torus"):
     return thing
 
 
-def on_ellipsoid(count=2000, axes=(1.0, 0.7, 0.5), seed=7):
-    """(n, 3) points on an ellipsoid, evenly spread as on a spiral, and their unit outward normals."""
-    height = 1 - (2 * np.arange(count) + 1) / count
-    angle = np.pi * (1 + 5**0.5) * np.arange(count)
-    angle += np.random.default_rng(seed).normal(scale=1e-3, size=count)
-    level = np.sqrt(1 - height**2)
-    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
-    normals = sphere / axes
-    return sphere * axes, normals / np.linalg.norm(normals, axis=1)[:, None]
-
-
 def scan(name="Scan", points=None, normals=None):
     """A mesh of vertices alone, as a scan is imported; a clean ellipsoid if nothing else is said."""
     thing = link(name, on_ellipsoid()[0] if points is None else points)
@@ -139,6 +133,16 @@ def radii_are_sound(mesh):
     return (radius >= 0).all() and (
         not ends.any() or (attribute(mesh, "ma_place")[ends] >= 3).all()
     )
+
+
+def sound(result):
+    """The result is a valid mesh of finite numbers."""
+    mesh = result.data
+    assert len(mesh.vertices) > 0 and mesh.validate() is False
+    assert np.isfinite(positions(mesh)).all()
+    for name in ("ma_radius", "ma_theta", "ma_rho"):
+        assert np.isfinite(attribute(mesh, name)).all()
+    assert radii_are_sound(mesh)
 
 
 def attribute(mesh, name):

@@ -26,13 +26,6 @@ def result():
     return result_of(source)
 
 
-def normals_of(mesh):
-    """(m, 3) the normals of the polygons."""
-    values = np.empty(3 * len(mesh.polygons), np.float32)
-    mesh.polygons.foreach_get("normal", values)
-    return values.reshape(-1, 3)
-
-
 def sharp_edges(mesh):
     values = np.empty(len(mesh.edges), bool)
     mesh.edges.foreach_get("use_edge_sharp", values)
@@ -67,15 +60,6 @@ def test_a_sheet_without_seams_needs_no_normals_of_corners():
     mesh = result_of(source).data
     assert len(mesh.polygons) and all(polygon.use_smooth for polygon in mesh.polygons)
     assert not sharp_edges(mesh).any() and not getattr(mesh, "use_auto_smooth", False)
-
-
-def test_the_facets_of_a_sheet_look_the_same_way(result):
-    mesh, part = result.data, attribute(result.data, "ma_part")
-    normals = normals_of(mesh)
-    for number in range(13):
-        own = normals[part == number]
-        mean = own.mean(axis=0)
-        assert np.quantile(own @ (mean / np.linalg.norm(mean)), 0.02) > 0.7
 
 
 def test_the_axis_is_read_back_as_it_was_computed(result):
@@ -128,17 +112,6 @@ def test_parts_become_objects_and_are_replaced(result):
     assert sum(len(thing.data.polygons) for thing in parts) == len(result.data.polygons)
     assert all(thing.matrix_world == result.matrix_world for thing in parts)
     assert np.array_equal(positions(result.data), before)
-
-
-def test_separating_can_be_undone(result):
-    name = result.name
-    select(result)
-    bpy.ops.ed.undo_push(message="before")
-    bpy.ops.object.medial_axis_separate_parts()
-    bpy.ops.ed.undo_push(message="Separate Parts")
-    bpy.ops.ed.undo()
-    assert not [c for c in bpy.data.collections if c.name.endswith("Parts")]
-    assert name in bpy.data.objects
 
 
 def test_other_forms_have_no_parts(result):

@@ -12,12 +12,9 @@ from scene import (
     compute,
     contents,
     ellipsoid,
-    link,
     positions,
-    refuse,
     reports,
     result_of,
-    scan,
     select,
     torus,
 )
@@ -70,17 +67,6 @@ def test_spheres_have_the_colours_of_their_radii():
     np.testing.assert_allclose(colours.reshape(-1, 4), expected[own], atol=1e-5)
 
 
-def test_around_holds_every_vertex():
-    source = torus()
-    made = cover(count=30, mode="AROUND")
-    gaps = np.linalg.norm(positions(source.data)[:, None] - positions(made.data)[None], axis=2)
-    assert (gaps - attribute(made.data, "ma_radius")).min(axis=1).max() < 1e-6
-    assert (
-        made["ma_balls_farthest"] == 0.0 < made["ma_balls_outside"]
-        and made["ma_balls_covered"] == 1.0
-    )
-
-
 def test_it_is_updated_in_place_and_undone():
     source = torus()
     bpy.ops.ed.undo_push(message="before")
@@ -93,17 +79,6 @@ def test_it_is_updated_in_place_and_undone():
     bpy.ops.ed.undo_push(message="made")
     bpy.ops.ed.undo()
     assert [thing.name for thing in bpy.data.objects] == ["Torus"]
-
-
-def test_a_cloud_has_balls():
-    scan()
-    made = cover(count=6)
-    assert len(made.data.vertices) == 6 and made["ma_balls_covered"] > 0.5
-
-
-def test_one_sentence_where_nothing_is_enclosed():
-    link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0.3, 0.4, 0)])
-    refuse("Expected", operator="medial_axis_balls")
 
 
 def test_balls_are_written(tmp_path, capfd):

@@ -165,33 +165,6 @@ def vectors(mesh, name):
     return values.reshape(-1, 3)
 
 
-def box():
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    thing = bpy.context.object
-    thing.data.transform(Matrix.Diagonal((1.5, 1.0, 0.7, 1.0)))
-    return thing
-
-
-def test_normals_of_a_box_are_those_of_its_bisectors():
-    source = box()
-    compute(form="CLEAN", sampling="SURFACE", samples=4_000)
-    mesh = result_of(source).data
-    found = vectors(mesh, "ma_normal")
-    assert mesh.attributes["ma_normal"].domain == "POINT"
-    on_sheet = attribute(mesh, "ma_kind") != 5
-    np.testing.assert_allclose(np.linalg.norm(found[on_sheet], axis=1), 1.0, atol=1e-5)
-    flat = np.sort(np.abs(found), axis=1)  # a bisector of two sides, or the plane between two
-    off = np.minimum(np.abs(flat - [0, 0.5**0.5, 0.5**0.5]), np.abs(flat - [0, 0, 1.0]))
-    assert np.mean(off.max(axis=1)[on_sheet] < 0.02) > 0.98
-    part, owners = attribute(mesh, "ma_part"), [set() for _ in mesh.vertices]
-    for face in mesh.polygons:
-        for vertex in face.vertices:
-            owners[vertex].add(part[face.index])
-    for each in set(part):  # away from seams every vertex of a part looks the same way
-        inside = [row for row, some in enumerate(owners) if some == {each}]
-        assert not inside or np.min(found[inside] @ found[inside[0]]) > 0.9
-
-
 def test_the_normals_of_sheets_do_not_say_what_is_inside():
     source = ellipsoid()
     compute(form="CLEAN", sampling="SURFACE", samples=1_500)

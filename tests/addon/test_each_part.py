@@ -67,17 +67,6 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
     assert [thing.name for thing in axes(source)] == ["Boxes Medial Axis", "Boxes Medial Axis 1"]
 
 
-def test_it_is_one_step_of_undo():
-    boxes(2)
-    bpy.ops.ed.undo_push(message="before")
-    compute(**EACH)
-    bpy.ops.ed.undo_push(message="Compute Medial Axis")
-    assert len(medial_objects()) == 2
-    bpy.ops.ed.undo()
-    assert not medial_objects()
-    assert not [c for c in bpy.data.collections if c.name.endswith("Medial Axes")]
-
-
 def test_a_refusal_and_a_cancelled_job_leave_nothing(monkeypatch):
     link("Sheet", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
     with pytest.raises(RuntimeError, match="found 1 without"):

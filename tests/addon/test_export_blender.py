@@ -216,19 +216,6 @@ def test_name_without_extension_takes_the_format(result, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["axis.off"]
 
 
-def test_failed_write_raises_and_leaves_the_old_file(result, tmp_path, monkeypatch):
-    path = tmp_path / "axis.ply"
-    path.write_bytes(b"precious")
-
-    def full(source, destination):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(RuntimeError, match="No space left on device"):
-        export(path)
-    assert [p.name for p in tmp_path.iterdir()] == ["axis.ply"] and path.read_bytes() == b"precious"
-
-
 @pytest.mark.skipif(os.name == "nt", reason="names are bytes where files are POSIX's")
 def test_name_that_is_no_text(result, tmp_path, capfd):
     """Blender takes text alone in what operators report."""

@@ -16,7 +16,6 @@ from scene import (
     result_of,
     select,
     suzanne,
-    torus,
 )
 
 
@@ -57,32 +56,6 @@ def test_clean_is_the_default():
     result = result_of(source)
     assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
     assert result["ma_topology"] == "1 piece, no loop, no cavity, as the solid"
-
-
-def test_a_tube_is_a_circle_of_edges():
-    """Its noise makes edges of more than 30 degrees, at which sheets would end."""
-    source = torus()
-    clean(sharp_angle=1.0)
-    mesh = result_of(source).data
-    edges = loose_edges(mesh)
-    where = positions(mesh)
-    assert len(mesh.polygons) == 0 and len(edges) == len(mesh.edges) == len(mesh.vertices) > 20
-    assert (np.bincount(edges.ravel()) == 2).all()
-    assert np.abs(where[:, 2]).max() < 0.02
-    assert tuple(result_of(source)["ma_betti"]) == (1, 1, 0)
-    assert attribute(mesh, "ma_radius") == pytest.approx(
-        np.median(attribute(mesh, "ma_radius")), rel=0.05
-    )
-
-
-def test_a_ball_is_one_point_with_its_radius():
-    bpy.ops.mesh.primitive_uv_sphere_add(radius=2.0)
-    source = bpy.context.object
-    clean(smooth=True)
-    mesh = result_of(source).data
-    assert (len(mesh.vertices), len(mesh.edges), len(mesh.polygons)) == (1, 0, 0)
-    assert np.linalg.norm(positions(mesh)) < 0.05
-    assert attribute(mesh, "ma_radius") == pytest.approx(2.0, rel=0.03)
 
 
 def test_attributes_of_faces_and_of_loose_edges():
@@ -170,47 +143,6 @@ def test_detail_of_a_curve_acts_at_once():
     assert np.array_equal(positions(result.data), whole) and analyses() == before
     del result["ma_detail"]  # as of a version without it
     assert addon("bridge.axis.axis_object").settings_of(result).detail == 1.0
-
-
-@pytest.mark.parametrize("side", ["OUTER", "BOTH"])
-def test_other_sides_are_as_published_which_is_said(side):
-    source = torus()
-    compute(side=side, form="PUBLISHED")
-    facets = len(result_of(source).data.polygons)
-    select(source)
-    compute(side=side, form="CLEAN")
-    result = result_of(source)
-    assert len(result.data.polygons) == facets and result["ma_form"] == "PUBLISHED"
-    assert result["ma_topology"] == "Form As Published: Clean is for the inner axis only"
-    bpy.context.scene.medial_axis.form = "CURVE"
-    assert result["ma_topology"] == "Form As Published: Curve is for the inner axis only"
-
-
-def test_overlapping_parts_differ_from_their_faces():
-    """Two balls that overlap are one solid of two shells."""
-    bpy.ops.mesh.primitive_uv_sphere_add(location=(-0.6, 0, 0))
-    one = bpy.context.object
-    bpy.ops.mesh.primitive_uv_sphere_add(location=(0.6, 0, 0))
-    select(bpy.context.object, one)
-    bpy.ops.object.join()
-    source = bpy.context.object
-    clean()
-    assert result_of(source)["ma_topology"] == (
-        "1 piece, no loop, no cavity, by the samples; by its faces it would be 2 pieces, no loop, "
-        "no cavity: its parts overlap"
-    )
-
-
-def test_a_cavity_is_counted():
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=2.0)
-    outer = bpy.context.object
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1.0)
-    bpy.context.object.data.flip_normals()
-    select(bpy.context.object, outer)
-    bpy.ops.object.join()
-    source = bpy.context.object
-    clean()
-    assert result_of(source)["ma_topology"] == "1 piece, no loop, 1 cavity, as the solid"
 
 
 # --- files

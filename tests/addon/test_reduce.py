@@ -125,19 +125,6 @@ def test_computing_from_it_computes_its_source():
     assert contents() == before
 
 
-def test_one_undo_takes_it_away():
-    bpy.context.preferences.edit.use_global_undo = True
-    source = ellipsoid()
-    compute(side="INNER")
-    name, before = source.name, len(bpy.data.objects)
-    bpy.ops.ed.undo_push(message="Axis is computed")
-    select(bpy.data.objects[name])
-    assert bpy.ops.object.medial_axis_reduce("EXEC_DEFAULT", True, vertices=20) == {"FINISHED"}
-    assert len(bpy.data.objects) == before + 1
-    bpy.ops.ed.undo()
-    assert len(bpy.data.objects) == before and name in bpy.data.objects
-
-
 def test_without_an_axis_it_says_so():
     source = ellipsoid()
     select(source)

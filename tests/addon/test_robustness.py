@@ -10,8 +10,6 @@ import bpy
 import pytest
 from scene import MODULE, compute, program, result_of, select, torus
 
-FORMATS = (".ma", ".ply", ".obj", ".off", ".npz")
-
 # Exports the active object to the file named after `--`, again and again.
 EXPORT_FOREVER = f"""
 import sys, bpy
@@ -92,12 +90,12 @@ def stopped_while_writing(process, folder):
     pytest.fail("the other Blender was never seen writing")
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
-def test_killed_while_writing_leaves_the_old_file(axis, exporter, tmp_path, suffix):
-    new = content_of(tmp_path / f"new{suffix}")
+def test_killed_while_writing_leaves_the_old_file(axis, exporter, tmp_path):
+    """The Python tests kill writers of the other formats."""
+    new = content_of(tmp_path / "new.ma")
     folder = tmp_path / "target"
     folder.mkdir()
-    target = folder / f"axis{suffix}"
+    target = folder / "axis.ma"
     process = exporter(save(tmp_path / "a.blend"), target)
     stopped_while_writing(process, folder)
     target.write_bytes(b"old")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects of any size: every operator makes a whole result or says in a sentence why it cannot."""
+"""Relations of every operator: objects of any size have a whole result or a sentence, and each is one step of undo."""
 
 import math
 
 import bpy
 import numpy as np
 import pytest
-from scene import addon, contents, ellipsoid, result_of, select
+from scene import addon, contents, ellipsoid, result_of, select, torus
 
 FEW = {"sampling": "SURFACE", "samples": 1_000}
 # The operators of the add-on that compute from a mesh, with options that keep them quick.
@@ -51,3 +51,60 @@ def assert_same_place(thing, source, size):
         farthest = max(math.dist(corner, (0, 0, 0)) for corner in thing.bound_box)
         assert farthest < 2 * size
         assert math.dist(thing.matrix_world.translation, source.matrix_world.translation) < size
+
+
+# --- undo: the operators of the table, and those that need something else
+
+OTHERS = {
+    "object.medial_axis": FEW,
+    "object.medial_axis each part": {**FEW, "form": "CLEAN", "each_part": True},
+    "object.medial_axis_separate_parts": {},
+    "object.medial_axis_to_curve": {},
+    "import_mesh.points_xyz": {"filepath": "scan.xyz"},
+    "import_mesh.points_off": {"filepath": "solid.off"},
+}
+FILES = {
+    "scan.xyz": "0 0 0\n1 0 0\n0 1 0\n",
+    "solid.off": "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+}
+
+
+def everything():
+    """Names and counts of all that an operator may have made, or changed on its source."""
+    more = [
+        sorted(thing.name for thing in kind)
+        for kind in (bpy.data.collections, bpy.data.curves, bpy.data.armatures)
+    ]
+    own = {
+        thing.name: (len(thing.modifiers), len(thing.vertex_groups), thing.parent is None)
+        for thing in bpy.data.objects
+    }
+    return [*contents(), *more, own]
+
+
+@pytest.mark.parametrize("name", [*(f"object.{name}" for name in OPERATORS), *OTHERS])
+def test_one_step_of_undo(name, tmp_path):
+    bpy.context.preferences.edit.use_global_undo = True
+    for file, text in FILES.items():
+        (tmp_path / file).write_text(text)
+    options = dict(OTHERS[name] if name in OTHERS else OPERATORS[name.partition(".")[2]])
+    if "filepath" in options:
+        options["filepath"] = str(tmp_path / options["filepath"])
+    if name.endswith("to_curve"):
+        source = torus()
+        bpy.ops.object.medial_axis(form="CURVE", **FEW)
+    else:
+        source = ellipsoid(segments=2)
+        if OTHERS.get(name) is not FEW:
+            bpy.ops.object.medial_axis(form="CLEAN", side="INNER", **FEW)
+    select(source)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    before = everything()
+    group, _, operator = name.partition(" ")[0].partition(".")
+    done = getattr(getattr(bpy.ops, group), operator)("EXEC_DEFAULT", True, **options)
+    made = everything()
+    assert done == {"FINISHED"} and made != before
+    bpy.ops.ed.undo()
+    assert everything() == before
+    bpy.ops.ed.redo()
+    assert everything() == made

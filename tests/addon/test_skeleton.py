@@ -20,7 +20,6 @@ from scene import (
     torus,
     world_positions,
 )
-from support.data import DATA
 from support.meshes import capsule, join
 
 
@@ -163,14 +162,6 @@ def test_a_hollow_pipe_has_one_line_when_it_is_filled(fill, radius):
     assert max(np.hypot(point.co.x, point.co.y) for point in points) < 0.5
 
 
-def test_detail_says_how_many_ends():
-    source = cross()
-    extract(detail=0.0)
-    few = skeleton_of(source)["ma_ends"]
-    extract(detail=0.5)
-    assert few <= skeleton_of(source)["ma_ends"]
-
-
 def test_skeleton_and_bones_start_from_the_curve_that_is_seen():
     """Two arms a tenth of a radius apart, which the samples join by rungs: some are seen, so some are kept."""
     arms = capsule((0, 0, 0), (4, 0, 0), 0.3), capsule((0, 0.63, 0), (4, 0.63, 0), 0.3)
@@ -271,16 +262,6 @@ def test_parts_are_refused_where_there_are_no_faces():
     refuse("turn Parts off", operator="medial_axis_skeleton", parts=True)
 
 
-def test_skeleton_is_one_undo_step():
-    bpy.context.preferences.edit.use_global_undo = True
-    cross()
-    bpy.ops.ed.undo_push(message="Scene is set")
-    before = [o.name for o in bpy.data.objects]
-    assert bpy.ops.object.medial_axis_skeleton("EXEC_DEFAULT", True) == {"FINISHED"}
-    bpy.ops.ed.undo()
-    assert [o.name for o in bpy.data.objects] == before
-
-
 def test_armature_of_few_connected_bones():
     source = cross()
     make_armature(bind="NONE")
@@ -364,14 +345,6 @@ def test_refusals_leave_nothing_behind():
     refuse("choose Weights None", operator="medial_axis_armature")
 
 
-def imported(name):
-    path = DATA / name
-    if not path.is_file():
-        pytest.skip(f"optional data file {name} is not in {DATA}")
-    shape, _ = addon("core.files.read_shape").read_shape(path)
-    return link(name, shape.points, shape.triangles)
-
-
 def test_where_heat_fails_the_axis_steps_in(capfd):
     """Two boxes that lie in each other: heat finds no way through the inner one."""
     source = cross()
@@ -393,15 +366,6 @@ def test_where_heat_fails_the_axis_steps_in(capfd):
     assert "the weights of the axis were taken" in capfd.readouterr().out
     assert_weights_hold(twice)
     assert "weights of the axis" in armature_of(twice)["ma_warnings"]
-
-
-@pytest.mark.turn
-@pytest.mark.parametrize("name", ["hand_closed.obj", "human_woman.obj"])
-def test_real_meshes_are_bound(name):
-    source = imported(name)
-    make_armature(bind="AXIS")
-    assert_weights_hold(source)
-    assert len(armature_of(source).data.bones) <= 3 * 6 + 20
 
 
 # --- other programs: Blender's own exporters and importers

@@ -80,11 +80,10 @@ def facets(result):
     }
 
 
-@pytest.mark.parametrize("parents", [False, True], ids=["alone", "with parents"])
 @pytest.mark.parametrize("name", PLACES)
-def test_result_equals_that_of_a_copy_with_applied_transform(name, parents):
+def test_result_equals_that_of_a_copy_with_applied_transform(name):
     source = ellipsoid(segments=3)
-    place(source, PLACES[name], parents)
+    place(source, PLACES[name], parents=list(PLACES).index(name) % 2 == 0)
     copy = applied_copy(source)
     select(source)
     compute()
@@ -106,15 +105,6 @@ def test_result_equals_that_of_a_copy_with_applied_transform(name, parents):
     low, high = (np.sort(attribute(thing.data, "ma_radius")) for thing in (result, expected))
     assert np.median(low) == pytest.approx(np.median(high), rel=1e-3)
     assert low[-1] == pytest.approx(high[-1], rel=1e-3)
-
-
-def test_inside_is_inside_after_mirroring():
-    source = ellipsoid()
-    source.scale = (-1, 1, 1)
-    compute()
-    result = result_of(source)
-    assert len(result.data.polygons) > 100
-    assert (world_positions(result) ** 2 / np.array([1, 0.7, 0.5]) ** 2).sum(axis=1).max() < 1
 
 
 def test_animated_constraint_is_seen():
@@ -164,11 +154,3 @@ def test_rotation_alone_leaves_the_points_exactly_as_they_are():
         further = Euler(random.uniform(-math.pi, math.pi, 3)).to_matrix().to_4x4()
         _, rest = split(np.array(turn @ further, np.float64))
         np.testing.assert_array_equal(rest, np.eye(3))
-
-
-def test_flat_object_says_that_its_points_lie_on_a_plane():
-    source = ellipsoid()
-    source.scale = (1, 1, 0)
-    with pytest.raises(RuntimeError, match=r"'Ellipsoid': .*plane"):
-        bpy.ops.object.medial_axis()
-    assert result_of(source) is None
