@@ -45,6 +45,14 @@ def test_transform_that_is_not_finite():
     refuse("'Ellipsoid': Expected a finite transform, found NaN")
 
 
+def test_duplicates_are_merged_and_counted():
+    points = np.random.default_rng(4).normal(size=(60, 3)).astype(np.float32)
+    source = link("Twice", np.concatenate([points, points[:25]]))
+    compute(side="BOTH")
+    assert result_of(source)["ma_duplicates"] == 25 and result_of(source)["ma_points"] == 85
+    sound(result_of(source))
+
+
 def test_cloud_far_from_the_origin():
     points = np.random.default_rng(8).normal(size=(80, 3)).astype(np.float32)
     source = link("Far", points + np.float32(1e6))
