@@ -162,8 +162,7 @@ FIGURES = {"chosen": 0, "radii": 1, "covered": 0, "outside": 1, "farthest": 1}
 STAGES = {
     "sides by normals": Stage(sides_by_normals, {"edges": 0, "side": 0}),
     "sides by poles": Stage(sides_by_poles, {"edges": 0, "side": 0}),
-    # Which vertices its grid leaves out depends on the unit, within a share of 1/32: test_feature_size.py.
-    "feature size": Stage(feature_size, {"spacing": 1}),
+    "feature size": Stage(feature_size, {"size": 1, "spacing": 1}),
     "solid triangles": Stage(solid_triangles, {"triangles": 0}),
     "hierarchy": Stage(
         hierarchy,

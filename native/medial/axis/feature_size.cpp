@@ -17,12 +17,13 @@ constexpr double kFar = 0.99;
 using GridCell = std::array<double, 4>;
 
 // Vertices in the same cell are at most kThinning times the smaller of their balls apart, and no
-// sample lies in these balls.
-GridCell grid_cell(const Vec3& centre, double radius) {
+// sample lies in these balls. Levels count from `unit`, that of the extent, so that the same shape
+// in another unit has the same cells.
+GridCell grid_cell(const Vec3& centre, double radius, int unit) {
   const int level = std::ilogb(radius);
   const double scale = std::ldexp(std::sqrt(3.0) / kThinning, -level);
-  return {static_cast<double>(level), std::floor(scale * centre.x), std::floor(scale * centre.y),
-          std::floor(scale * centre.z)};
+  return {static_cast<double>(level - unit), std::floor(scale * centre.x),
+          std::floor(scale * centre.y), std::floor(scale * centre.z)};
 }
 
 // This keeps the last cell that fell into each of its slots.
@@ -56,6 +57,7 @@ Sites sites(std::span<const Vec3> points, const Triangulation& t, const Voronoi&
             std::span<const uint8_t> marked, const Run& run) {
   constexpr int64_t kChunk = 1 << 15;
   const double extent = length(box_of(points).extent());
+  const int unit = std::ilogb(extent);
   std::vector<Sites> parts(static_cast<size_t>(t.finite_cells / kChunk + 1));
   const auto collect = [&](int64_t begin, int64_t end, int) {
     RecentCells seen;
@@ -63,7 +65,7 @@ Sites sites(std::span<const Vec3> points, const Triangulation& t, const Voronoi&
       if (!marked[c]) continue;
       const Vec3& centre = voronoi.centre[c];
       const double radius = distance(centre, points[t.cells[c][0]]);
-      if (radius < HUGE_VAL && seen.insert(grid_cell(centre, radius))) {
+      if (radius < HUGE_VAL && seen.insert(grid_cell(centre, radius, unit))) {
         Sites& part = parts[begin / kChunk];
         (radius <= extent ? part.near : part.far).push_back(centre);
       }
