@@ -10,16 +10,15 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..bridge.read_object import read_object
 from ..core.axis.medial_axis import MedialAxis
-from ..core.errors import InvalidInputError, MedialAxisError
+from ..core.errors import InvalidInputError
 from ..core.files.write import FORMATS, export_axis
 from ..core.files.write_balls import export_balls
 from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode, CoverShapes
 from ..core.solid.ball_cover import cover_by_balls
 from .export_file import ExportFile
-from .plain_words import told
+from .plain_words import Needing, Telling
 from .preferences import memory_limit
 from .properties import prop
-from .translation import say
 
 _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
     ".json": "JSON, balls or capsules and their figures",
@@ -29,7 +28,7 @@ _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
 
-class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
+class EXPORT_SCENE_OT_medial_axis(Needing, Telling, ExportFile, bpy.types.Operator):
     bl_idname = "export_scene.medial_axis"
     bl_label = "Export Medial Axis"
     bl_description = (
@@ -60,13 +59,8 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     refine: prop(BALL_OPTIONS["refine"])
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if _thing(context) is None:
-            cls.poll_message_set(
-                say("Select a medial axis, or an object whose medial axis was computed before")
-            )
-            return False
-        return True
+    def find(cls, context: bpy.types.Context) -> bpy.types.Object | None:
+        return _thing(context)
 
     @property
     def extensions(self) -> dict[str, str]:
@@ -75,15 +69,10 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     def default_name(self, context: bpy.types.Context) -> str:
         return _thing(context).name
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> str:
         context.view_layer.update()  # scripts may have moved the object
-        try:
-            size, written = self._write(context, _thing(context), self.chosen_path)
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote {size} to '{written.name}'"))
-        return {"FINISHED"}
+        size, written = self._write(context, _thing(context), self.chosen_path)
+        return f"Wrote {size} to '{written.name}'"
 
     def _write(self, context, thing, path):
         """A sentence for people: how much was written, and to which file."""

@@ -6,14 +6,13 @@ from bpy.props import EnumProperty, StringProperty
 
 from ..bridge import thickness_object as of
 from ..bridge.output_object import is_gone, source_of
-from ..core.errors import InvalidInputError, MedialAxisError
+from ..core.errors import InvalidInputError
 from ..core.files.write_thickness import THICKNESS_FORMATS, export_thickness
 from ..core.solid.thickness import kept_measurement
 from ..core.solid.thin_parts import find_thin_parts
 from .export_file import ExportFile
-from .plain_words import told
+from .plain_words import Needing, Telling
 from .thickness_properties import shown_thickness
-from .translation import say
 
 _LABELS = {
     "HTML": "Page with pictures, a histogram and the thinnest places",
@@ -26,7 +25,7 @@ assert set(_EXTENSIONS.values()) == set(THICKNESS_FORMATS)
 _METRIC = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm"}
 
 
-class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
+class EXPORT_SCENE_OT_medial_axis_thickness(Needing, Telling, ExportFile, bpy.types.Operator):
     bl_idname = "export_scene.medial_axis_thickness"
     bl_label = "Export Thickness"
     bl_description = "Write the measured thickness of the active object, in world coordinates"
@@ -41,12 +40,8 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
         default="HTML",
     )
 
-    @classmethod
-    def poll(cls, context):
-        if shown_thickness(context) is None:
-            cls.poll_message_set(say("Select an object whose thickness was measured before"))
-            return False
-        return True
+    needs = "Select an object whose thickness was measured before"
+    find = staticmethod(shown_thickness)
 
     @property
     def extensions(self):
@@ -55,24 +50,19 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
     def default_name(self, context):
         return f"{_measured(context).name} Thickness"
 
-    def execute(self, context):
+    def run(self, context):
         carrier = shown_thickness(context)
         found = kept_measurement(carrier[of.KEY])
-        try:
-            if found is None:
-                raise InvalidInputError(
-                    f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
-                    "press Measure Thickness again"
-                )
-            least = context.scene.medial_axis_thickness.minimum_patch
-            parts = find_thin_parts(found, carrier[of.LIMIT], least)
-            name = _measured(context).name
-            written = export_thickness(found, parts, self.chosen_path, _unit(context), name)
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote the thickness to '{written.name}'"))
-        return {"FINISHED"}
+        if found is None:
+            raise InvalidInputError(
+                f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
+                "press Measure Thickness again"
+            )
+        least = context.scene.medial_axis_thickness.minimum_patch
+        parts = find_thin_parts(found, carrier[of.LIMIT], least)
+        name = _measured(context).name
+        written = export_thickness(found, parts, self.chosen_path, _unit(context), name)
+        return f"Wrote the thickness to '{written.name}'"
 
 
 def _measured(context):

@@ -9,8 +9,7 @@ from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, w
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
 from ..core.solid.hollow import hollow
-from .alone import Alone
-from .compute_operator import ComputeOperator
+from .compute_operator import Alone, ComputeOperator
 from .properties import prop, settings_from, with_options
 
 

@@ -11,12 +11,11 @@ from ..bridge.mid_surface_object import (
     write_mid_surface,
 )
 from ..core.samples.density import share_text
-from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
+from ..core.settings import LOOKS, MID_SURFACE_OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
-from .alone import Alone
+from .compute_operator import Alone, SampledOperator
 from .preferences import memory_limit
-from .properties import settings_from, with_options
-from .wall_operator import WallOperator
+from .properties import prop, settings_from, with_options
 
 
 @with_options(MID_SURFACE_OPTIONS)
@@ -25,7 +24,7 @@ class MidSurfaceProperties:
 
 
 class OBJECT_OT_medial_axis_unsolidify(
-    WallOperator, Alone, MidSurfaceProperties, bpy.types.Operator
+    SampledOperator, Alone, MidSurfaceProperties, bpy.types.Operator
 ):
     bl_idname = "object.medial_axis_unsolidify"
     bl_label = "Unsolidify"
@@ -36,6 +35,7 @@ class OBJECT_OT_medial_axis_unsolidify(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "middle surface"
+    parent: prop(LOOKS["parent"])
     shown = (*MID_SURFACE_OPTIONS, "parent")
     check_writable = staticmethod(check_mid_surface_writable)
 

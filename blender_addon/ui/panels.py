@@ -20,10 +20,17 @@ from .form_panel import draw_form
 from .guide import draw_guide
 from .plain_words import doing, draw_told
 from .presets import VIEW3D_PT_medial_axis_presets
-from .properties import copy_settings, note_of, shown_report, shown_result, shown_surface
+from .properties import (
+    copy_settings,
+    note_of,
+    shown_frame,
+    shown_report,
+    shown_result,
+    shown_surface,
+    shown_thing,
+)
 from .selected_sources import has_faces, obstacle, sources
 from .show import draw_colours, shows_colours
-from .shown import shown_frame, shown_thing
 from .tab import DETAILS, MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 
 _drawn = {}  # a sidebar -> what its panels were drawn for

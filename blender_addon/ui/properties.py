@@ -24,6 +24,7 @@ from ..bridge.heat_map import show_axis, shown_heat
 from ..bridge.output_object import WARNINGS, is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
+from ..bridge.sequence_objects import FRAME
 from ..bridge.shown_axis import shown_axis
 from ..bridge.surface_object import is_surface, surface_of
 from ..bridge.wires import wires_group
@@ -182,6 +183,17 @@ def shown_surface(context):
 def shown_report(context):
     """The report that the panel describes: the active object, or the report that was made of it."""
     return _shown(context, has_report, report_of)
+
+
+def shown_frame(context):
+    """The active object, where it is a frame of a sequence."""
+    active = context.object
+    return active if active is not None and FRAME in active else None
+
+
+def shown_thing(context):
+    """A frame of a sequence, a medial axis, or a report."""
+    return shown_frame(context) or shown_result(context) or shown_report(context)
 
 
 def _shown(context, is_kind, of_source):

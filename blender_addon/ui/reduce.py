@@ -16,8 +16,7 @@ from ..core.samples.shape import Shape
 from ..core.solid.reduce import reduce_axis, reduced_difference
 from ..core.solid.solid_difference import PointDifference
 from . import current_job
-from .alone import Alone
-from .compute_operator import ComputeOperator
+from .compute_operator import Alone, ComputeOperator
 from .translation import say
 
 

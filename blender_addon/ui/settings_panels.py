@@ -6,8 +6,7 @@ import bpy
 from ..bridge.wires import width_of, wires_of
 from ..core.settings import AS_IN_PAPER, SAMPLING_OPTIONS, Form, applies_to_form
 from .form_panel import draw_more_of_form
-from .properties import copy_settings, draw_sampling, settings_from
-from .shown import shown_thing
+from .properties import copy_settings, draw_sampling, settings_from, shown_thing
 from .tab import SETTINGS, Closed, InSettings, draw_setting, draws_buttons, settings_column
 
 
