@@ -93,8 +93,7 @@ def test_duplicates_are_merged_and_counted():
 def test_split_vertices_still_close_the_surface():
     source = ellipsoid()
     source.modifiers.new("Split", "EDGE_SPLIT").split_angle = 0
-    compute()
-    result = result_of(source)
+    result = compute()
     assert result["ma_side"] == "INNER" and result["ma_duplicates"] == 960 - 162
 
 
@@ -199,8 +198,7 @@ def test_a_source_hidden_by_h_is_read_as_it_was_seen(chosen):
     """H hides and deselects; the source stays active, and buttons act on what is still shown of it."""
     source = ellipsoid()
     source.modifiers.new("Subdivision", "SUBSURF").levels = 1
-    compute()
-    result = result_of(source)
+    result = compute()
     points = result["ma_points"]
     source.hide_set(True)
     select(result) if chosen == "result" else select()

@@ -175,9 +175,7 @@ def test_other_sides_are_as_published_which_is_said(side):
     source = torus()
     compute(side=side, form="PUBLISHED")
     facets = len(result_of(source).data.polygons)
-    select(source)
-    compute(side=side, form="CLEAN")
-    result = result_of(source)
+    result = compute(source, side=side, form="CLEAN")
     assert len(result.data.polygons) == facets and result["ma_form"] == "PUBLISHED"
     assert result["ma_topology"] == "Form As Published: Clean is for the inner axis only"
     bpy.context.scene.medial_axis.form = "CURVE"

@@ -359,9 +359,8 @@ def test_mesh_to_inner_axis(folder):
 
 
 def test_our_own_off_comes_back(folder):
-    source = ellipsoid()
-    compute(side="INNER")
-    axis = result_of(source)
+    ellipsoid()
+    axis = compute(side="INNER")
     select(axis)
     bpy.ops.export_scene.medial_axis(filepath=str(folder / "axis.off"))
     read(folder / "axis.off")

@@ -81,8 +81,7 @@ def open_oriented():
 def test_automatic_says_which_and_why(make, sides, sentence):
     source = make()
     sentence = sentence.format(boundary(source.data))
-    compute()
-    result = result_of(source)
+    result = compute()
     assert (result["ma_side"], result["ma_sides"]) == ("INNER", sides)
     assert result["ma_inside"] == sentence
     assert set(attribute(result.data, "ma_side")) == {1}
@@ -103,8 +102,7 @@ def test_chosen_source_is_used_although_all_are_there(sides):
     source = ellipsoid()
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
     addon("bridge.attributes").add_normals(source.data.attributes, normals)
-    compute(sides=sides)
-    result = result_of(source)
+    result = compute(sides=sides)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
     samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
     assert samples.analysis.sides_from.name == sides
@@ -258,9 +256,8 @@ def test_closed_cavity_is_noticed():
 
 def test_automatic_keeps_a_closed_cavity():
     """Points alone: their poles contradict Tight Cocone, and are believed."""
-    source = hollow_scan()
-    compute()
-    result = result_of(source)
+    hollow_scan()
+    result = compute()
     assert result["ma_sides"] == "POLES" and "cavities" not in result["ma_warnings"]
     begun = "Inside from Poles: the points have no faces and no normals, and the poles of "
     assert re.fullmatch(
@@ -307,8 +304,7 @@ def test_another_source_is_another_analysis():
     source = ellipsoid()
     compute()
     before = analyses()
-    select(source)
-    compute(sides="TIGHT_COCONE")
+    compute(source, sides="TIGHT_COCONE")
     assert analyses() == before + 1 and result_of(source)["ma_sides"] == "TIGHT_COCONE"
 
 
