@@ -18,15 +18,13 @@ from ..bridge.balls_object import (
 from ..bridge.objects.output_object import is_gone, source_of
 from ..core.cover.ball_cover import cover_by_balls
 from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
-from .axis.compute_operator import ComputeOperator
+from .axis.compute_operator import SampledOperator
 from .axis.figures import length_text
 from .base.tab import Closed, draws_buttons, settings_column
-from .base.translation import say
+from .base.wrapped_text import draw_figures
 from .settings.preferences import memory_limit
 from .settings.properties import (
-    SamplingProperties,
     copy_settings,
-    draw_sampling,
     prop,
     settings_from,
     with_options,
@@ -38,10 +36,8 @@ class BallProperties:
     """The number of balls, and what they promise."""
 
 
-@with_options({name: OPTIONS[name] for name in ("theta", "rho", "sides", "rule", "criteria")})
-class OBJECT_OT_medial_axis_balls(
-    ComputeOperator, SamplingProperties, BallProperties, bpy.types.Operator
-):
+@with_options({name: OPTIONS[name] for name in ("theta", "rho", "rule", "criteria")})
+class OBJECT_OT_medial_axis_balls(SampledOperator, BallProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_balls"
     bl_label = "Cover with Balls"
     bl_description = (
@@ -52,14 +48,11 @@ class OBJECT_OT_medial_axis_balls(
     product = "balls"
     check_writable = staticmethod(check_balls_writable)
 
+    shown = (*BALL_OPTIONS, "parent")
     parent: prop(LOOKS["parent"])
 
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in (*BALL_OPTIONS, "parent", "sides", "sampling"):
-            self.layout.prop(self, name)
-        of_faces = settings_from(self).options_of_faces  # balls are those of a clean form
-        draw_sampling(self.layout.box().column(), self, of_faces)
+    def of_faces(self):
+        return settings_from(self).options_of_faces  # balls are those of a clean form
 
     def work(self, shape):
         wanted = settings_from(self, BallSettings)
@@ -125,10 +118,7 @@ def _draw_figures(context, layout, thing):
         "Outside": length_text(context, thing[OUTSIDE]),
         "Surface Away": length_text(context, thing[FARTHEST]),
     }
-    for label, text in figures.items():
-        row = layout.split(factor=0.45)
-        row.label(text=say(label), translate=False)
-        row.label(text=text, translate=False)
+    draw_figures(layout, figures)
 
 
 PROPERTIES = {

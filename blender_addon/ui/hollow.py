@@ -9,8 +9,7 @@ from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, w
 from ..core.hollow.hollow import hollow
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
-from .axis.compute_operator import ComputeOperator
-from .base.alone import Alone
+from .axis.compute_operator import Alone, ComputeOperator
 from .settings.properties import prop, settings_from, with_options
 
 

@@ -12,11 +12,10 @@ from ..bridge.mid_surface_object import (
 )
 from ..core.mid_surface.mid_surface import mid_surface
 from ..core.samples.density import share_text
-from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
-from .base.alone import Alone
+from ..core.settings import LOOKS, MID_SURFACE_OPTIONS, MidSurfaceSettings
+from .axis.compute_operator import Alone, SampledOperator
 from .settings.preferences import memory_limit
-from .settings.properties import settings_from, with_options
-from .thickness.wall_operator import WallOperator
+from .settings.properties import prop, settings_from, with_options
 
 
 @with_options(MID_SURFACE_OPTIONS)
@@ -25,7 +24,7 @@ class MidSurfaceProperties:
 
 
 class OBJECT_OT_medial_axis_unsolidify(
-    WallOperator, Alone, MidSurfaceProperties, bpy.types.Operator
+    SampledOperator, Alone, MidSurfaceProperties, bpy.types.Operator
 ):
     bl_idname = "object.medial_axis_unsolidify"
     bl_label = "Unsolidify"
@@ -36,6 +35,7 @@ class OBJECT_OT_medial_axis_unsolidify(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "middle surface"
+    parent: prop(LOOKS["parent"])
     shown = (*MID_SURFACE_OPTIONS, "parent")
     check_writable = staticmethod(check_mid_surface_writable)
 

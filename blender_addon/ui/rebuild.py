@@ -16,12 +16,11 @@ from ..bridge.rebuilt_object import (
     rebuilt_of,
     unrebuilt,
 )
-from ..core.errors import MedialAxisError
-from .base.alone import Alone
-from .base.plain_words import told
+from .axis.compute_operator import Alone
+from .base.plain_words import Needing, Telling
 from .base.select_made import bring_into_view_layer
 from .base.tab import Closed, settings_column
-from .base.translation import say
+from .base.wrapped_text import draw_figures
 
 _INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
 
@@ -31,7 +30,7 @@ def _axis(context):
     return find_axis(unrebuilt(context.active_object))
 
 
-class OBJECT_OT_medial_axis_rebuild(Alone, bpy.types.Operator):
+class OBJECT_OT_medial_axis_rebuild(Alone, Needing, Telling, bpy.types.Operator):
     bl_idname = "object.medial_axis_rebuild"
     bl_label = "Rebuild Solid"
     bl_description = (
@@ -40,37 +39,24 @@ class OBJECT_OT_medial_axis_rebuild(Alone, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        if _axis(context) is None:
-            cls.poll_message_set(
-                say("Select a medial axis, or an object whose medial axis was computed before")
-            )
-            return False
-        return True
+    find = staticmethod(_axis)
 
     def invoke(self, context, _event):
         if not self.properties.is_property_set("alone"):
             self.alone = rebuilt_of(_axis(context)) is None
         return self.execute(context)
 
-    def execute(self, context):
-        try:
-            made = rebuild(_axis(context))
-            bring_into_view_layer(context, made)
-            back = self.alone or are_back(made)
-            with seen([made]):
-                found = measure(made, context.evaluated_depsgraph_get())
-            step_back(made, back)
-            if self.alone and context.mode == "OBJECT":
-                made.select_set(True)
-                context.view_layer.objects.active = made
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        if found is not None:
-            self.report({"INFO"}, say(_sentence(made.name, found)))
-        return {"FINISHED"}
+    def run(self, context):
+        made = rebuild(_axis(context))
+        bring_into_view_layer(context, made)
+        back = self.alone or are_back(made)
+        with seen([made]):
+            found = measure(made, context.evaluated_depsgraph_get())
+        step_back(made, back)
+        if self.alone and context.mode == "OBJECT":
+            made.select_set(True)
+            context.view_layer.objects.active = made
+        return None if found is None else _sentence(made.name, found)
 
 
 class OBJECT_OT_medial_axis_others(bpy.types.Operator):
@@ -132,13 +118,9 @@ def _draw_inputs(layout, made):
 def _draw_difference(layout, made):
     if MEAN not in made:
         return
-    column = layout.column(align=True)
     figures = {
         "Mean Distance": f"{100 * made[MEAN]:.3f} %",
         "Max Distance": f"{100 * made[LARGEST]:.2f} %",
         "Volume": f"{100 * made[VOLUME]:.1f} %",
     }
-    for label, text in figures.items():
-        row = column.split(factor=0.6)
-        row.label(text=say(label), translate=False)
-        row.label(text=text, translate=False)
+    draw_figures(layout, figures, 0.6)

@@ -15,9 +15,8 @@ from ..core.axis.medial_axis import MedialAxis
 from ..core.rebuild.reduce import reduce_axis, reduced_difference
 from ..core.rebuild.solid_difference import PointDifference
 from ..core.shape.shape import Shape
-from .axis.compute_operator import ComputeOperator
+from .axis.compute_operator import Alone, ComputeOperator
 from .base import current_job
-from .base.alone import Alone
 from .base.translation import say
 
 

@@ -165,9 +165,16 @@ def analyses():
     return addon("core.machine.cache").CACHE.analyses
 
 
-def compute(**settings):
-    """Run the operator on the selection, by its vertices and as published if nothing else is said; it must succeed."""
+def compute(*sources, **settings):
+    """Run the operator on these objects, or on the selection; it must succeed. Returns the active one's result.
+
+    If nothing else is said, it takes the vertices as samples, and keeps the axis as published.
+    """
+    if sources:
+        select(*sources)
+    active = bpy.context.object
     assert compute_or_not(**settings) == {"FINISHED"}
+    return active if active in medial_objects() else result_of(active)
 
 
 def compute_or_not(**settings):

@@ -6,7 +6,7 @@ import dataclasses
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, positions, result_of, select
+from scene import addon, compute, ellipsoid, positions, result_of
 
 
 @pytest.fixture(autouse=True)
@@ -20,8 +20,7 @@ def modules():
 def pair():
     source = ellipsoid(segments=4)
     bpy.context.scene.medial_axis.sampling = "VERTICES"
-    compute(sampling="VERTICES")
-    result = result_of(source)
+    result = compute(sampling="VERTICES")
     result.medial_axis_auto_update = True
     addon("bridge.nodes.wires").wires_group()  # as in a window, where the switch makes it
     return source, result
@@ -82,8 +81,7 @@ def test_an_update_is_what_a_computation_makes(pair):
     update(result)
     assert wanted() is None
     updated = positions(result.data)
-    select(source)
-    compute(sampling="VERTICES")
+    compute(source, sampling="VERTICES")
     assert np.array_equal(updated, positions(result_of(source).data))
 
 

@@ -145,8 +145,7 @@ def test_the_panel_of_parts_stays_in_its_place(result):
     source = bpy.data.objects["Cube"]
     panel = bpy.types.VIEW3D_PT_medial_axis_parts
     assert panel.poll(bpy.context)
-    select(source)
-    compute(**EVEN | {"form": "PUBLISHED"})
+    compute(source, **EVEN | {"form": "PUBLISHED"})
     assert panel.poll(bpy.context)
     assert not bpy.ops.object.medial_axis_select_part.poll()
     bpy.data.objects.remove(result_of(source))

@@ -81,8 +81,7 @@ def test_a_source_hidden_by_h_is_read_as_it_was_seen(chosen):
     """H hides and deselects; the source stays active, and buttons act on what is still shown of it."""
     source = ellipsoid()
     source.modifiers.new("Subdivision", "SUBSURF").levels = 1
-    compute()
-    result = result_of(source)
+    result = compute()
     points = result["ma_points"]
     source.hide_set(True)
     select(result) if chosen == "result" else select()

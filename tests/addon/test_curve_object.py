@@ -24,8 +24,7 @@ CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
 def test_a_curve_has_the_places_and_radii_of_the_wires():
     source = torus()
     source.location = (1.0, 2.0, 3.0)
-    compute(**CURVE)
-    axis = result_of(source)
+    axis = compute(**CURVE)
     assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
     curve = bpy.context.object
     assert curve.type == "CURVE" and curve.select_get() and not axis.select_get()
@@ -83,9 +82,8 @@ def length_of_wires(mesh):
 
 
 def test_branches_meet_at_a_fork():
-    source = cells(*((x, 0, 0) for x in range(9)), *((4, y, 0) for y in range(1, 5)))
-    compute(form="CURVE", sampling="SURFACE", samples=3_000, limb=10.0)
-    axis = result_of(source)
+    cells(*((x, 0, 0) for x in range(9)), *((4, y, 0) for y in range(1, 5)))
+    axis = compute(form="CURVE", sampling="SURFACE", samples=3_000, limb=10.0)
     assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
     curve = bpy.context.object
     splines = splines_of(curve)
@@ -100,9 +98,8 @@ def test_branches_meet_at_a_fork():
 def test_vertices_of_sheets_are_no_points_of_the_curve():
     block = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
     bar, other = [(x, 1, 1) for x in range(3, 8)], [(x + 8, y, z) for x, y, z in block]
-    source = cells(*block, *bar, *other)
-    compute(form="CLEAN", sampling="SURFACE", samples=3_000, simplify=2.0)
-    axis = result_of(source)
+    cells(*block, *bar, *other)
+    axis = compute(form="CLEAN", sampling="SURFACE", samples=3_000, simplify=2.0)
     wires = wires_of(axis.data)
     assert len(axis.data.polygons) > 100 and len(wires) > 20, "sheets and wires"
     assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
@@ -124,8 +121,7 @@ def test_vertices_of_sheets_are_no_points_of_the_curve():
 def test_what_is_hidden_is_converted_too(which, hide):
     source = torus()
     source.location = (1.0, 2.0, 3.0)
-    compute(**CURVE)
-    axis = result_of(source)
+    axis = compute(**CURVE)
     hidden, other = (source, axis) if which == "source" else (axis, source)
     place, count = axis.matrix_world.copy(), len(axis.data.vertices)
     select(other)
@@ -199,9 +195,8 @@ def arrows_along(thing, name):
 
 
 def test_instances_follow_the_curve():
-    source = torus()
-    compute(**CURVE)
-    axis = result_of(source)
+    torus()
+    axis = compute(**CURVE)
     assert axis.data.attributes["ma_tangent"].domain == "POINT"
     arrows, places = arrows_along(axis, "ma_tangent")
     assert len(arrows) == len(axis.data.vertices) > 50
@@ -226,9 +221,8 @@ def test_the_group_of_balls_shows_thousands():
 
 
 def test_the_curve_is_refused_where_an_artist_took_the_edges_away():
-    source = torus()
-    compute(**CURVE)
-    axis = result_of(source)
+    torus()
+    axis = compute(**CURVE)
     axis.data.clear_geometry()
     with pytest.raises(RuntimeError, match="compute the medial axis again|choose Form Curve"):
         bpy.ops.object.medial_axis_to_curve()

@@ -49,8 +49,7 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
     assert whole["ma_source_mesh"] == (
         "3 connected parts; 2 of them overlapping others; 1 of them apart from all others"
     )
-    select(source)
-    compute(**EACH)
+    compute(source, **EACH)
     first = axes(source)
     select(first[-1])
     compute(**EACH)
@@ -62,8 +61,7 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
         [tuple(p.vertices) for p in source.data.polygons[:6]],
     )
     source.data = mesh
-    select(source)
-    compute(**EACH)
+    compute(source, **EACH)
     assert [thing.name for thing in axes(source)] == ["Boxes Medial Axis", "Boxes Medial Axis 1"]
 
 

@@ -15,7 +15,6 @@ from scene import (
     link,
     positions,
     reports,
-    result_of,
     select,
     torus,
     world_positions,
@@ -30,9 +29,7 @@ def result():
     """The inner axis of a moved and rotated torus; selected and active."""
     source = torus()
     source.location, source.rotation_euler = (3, -2, 1), (0.3, -0.5, 0.7)
-    select(source)
-    compute(side="INNER")
-    axis = result_of(source)
+    axis = compute(source, side="INNER")
     select(axis)
     return axis
 

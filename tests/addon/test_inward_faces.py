@@ -53,14 +53,12 @@ def test_turn(source, mode):
 
 def test_a_computation_changes_nothing_and_says_what_it_read(source):
     before = normals(source.data)
-    compute()
-    result = result_of(source)
+    result = compute()
     assert np.array_equal(normals(source.data), before)
     assert result["ma_turned"] == len(ROWS) and "looked inward" in result["ma_warnings"]
     select(result)
     assert inward("TURN") == {"FINISHED"}  # of the source
-    select(source)
-    compute()
+    compute(source)
     assert result_of(source)["ma_turned"] == 0
     assert "looked inward" not in result_of(source)["ma_warnings"]
 

@@ -102,9 +102,8 @@ def test_a_note_is_told_with_its_object():
 
 
 def test_result_is_coloured_by_radius():
-    source = ellipsoid()
-    compute(**EVEN)
-    result = result_of(source)
+    ellipsoid()
+    result = compute(**EVEN)
     radius = attribute(result.data, "ma_radius").astype(float)
     core = addon("core.axis.colours")
     start, end = core.radius_range(radius)
@@ -126,9 +125,8 @@ def test_colours_follow_the_sliders():
 
 
 def test_scripts_turn_colours_off():
-    source = ellipsoid()
-    compute(colours=False, **EVEN)
-    result = result_of(source)
+    ellipsoid()
+    result = compute(colours=False, **EVEN)
     assert "ma_color" not in result.data.attributes
     assert addon("bridge.mesh.colours").colour_range(result) is None
 
@@ -175,8 +173,7 @@ def test_a_script_has_the_result_selected_unless_it_says_otherwise():
     source = ellipsoid()
     compute(**EVEN)
     assert bpy.context.selected_objects == [result_of(source)] == [bpy.context.object]
-    select(source)
-    compute(select_result=False, **EVEN)
+    compute(source, select_result=False, **EVEN)
     assert bpy.context.selected_objects == [source] == [bpy.context.object]
 
 
@@ -186,37 +183,31 @@ def test_a_script_has_the_result_selected_unless_it_says_otherwise():
 def test_result_follows_its_source():
     source = ellipsoid()
     source.matrix_world = Matrix.Translation((1, 2, 3)) @ Matrix.Rotation(0.5, 4, "Y")
-    compute(**EVEN)
-    result = result_of(source)
+    result = compute(**EVEN)
     before = world_positions(result)
     move = Matrix.Translation((4, 0, -1)) @ Matrix.Rotation(1.0, 4, "X")
     source.matrix_world = move @ source.matrix_world
     turn = np.array(move)
     expected = before @ turn[:3, :3].T + turn[:3, 3]
     np.testing.assert_allclose(world_positions(result), expected, atol=1e-5)
-    select(source)
-    compute(**EVEN)
+    compute(source, **EVEN)
     np.testing.assert_allclose(world_positions(result), expected, atol=1e-5)
     assert tuple(result.scale) == (1.0, 1.0, 1.0)
 
 
 def test_scripts_turn_following_off_and_an_artists_parent_stays():
     source = ellipsoid()
-    compute(parent=False, **EVEN)
-    result = result_of(source)
+    result = compute(parent=False, **EVEN)
     assert result.parent is None
     empty = bpy.data.objects.new("Mine", None)
     bpy.context.scene.collection.objects.link(empty)
     result.parent = empty
-    select(source)
-    compute(**EVEN)
+    compute(source, **EVEN)
     assert result.parent == empty
     result.parent = None
-    select(source)
-    compute(**EVEN)
+    compute(source, **EVEN)
     assert result.parent == source
-    select(source)
-    compute(parent=False, **EVEN)
+    compute(source, parent=False, **EVEN)
     assert result.parent is None
     bpy.context.view_layer.update()
     assert np.allclose(np.array(result.matrix_world), np.identity(4))
@@ -225,8 +216,7 @@ def test_scripts_turn_following_off_and_an_artists_parent_stays():
 def test_a_source_that_goes_leaves_its_result_where_it_was():
     source = ellipsoid()
     source.location = (3, 0, 0)
-    compute(**EVEN)
-    result = result_of(source)
+    result = compute(**EVEN)
     before = world_positions(result)
     bpy.data.objects.remove(source)
     np.testing.assert_allclose(world_positions(result), before, atol=1e-5)
@@ -271,8 +261,7 @@ def test_panel_finds_the_axis_of_whatever_is_selected():
     source = ellipsoid()
     bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN)
     bpy.ops.object.tight_cocone_surface()
-    select(source)
-    compute(**EVEN)
+    compute(source, **EVEN)
     report = addon("bridge.axis.report_object").report_of(source)
     surface = addon("bridge.surface_object").surface_of(source)
     for thing in (source, result_of(source), report, surface):
@@ -287,17 +276,14 @@ def test_panel_finds_the_axis_of_whatever_is_selected():
 
 def test_outer_axis_is_not_in_front_and_stays_near():
     source = torus()
-    compute(side="OUTER", within=1.5)
-    result = result_of(source)
+    result = compute(side="OUTER", within=1.5)
     assert not result.show_in_front
     box = np.ptp(positions(source.data), axis=0)
     assert (np.ptp(positions(result.data), axis=0) <= 1.5 * box + 1e-5).all()
     near, hidden = len(result.data.polygons), result["ma_hidden"]
-    select(source)
-    compute(side="OUTER", within=0.0)
+    compute(source, side="OUTER", within=0.0)
     assert len(result.data.polygons) == near + hidden > near
-    select(source)
-    compute(side="INNER")
+    compute(source, side="INNER")
     assert result.show_in_front
 
 
@@ -308,8 +294,7 @@ def test_shards_of_an_outer_axis_are_hidden_but_not_as_published():
     result, panel = result_of(source), bpy.context.scene.medial_axis
     pieces, facets = result["ma_pieces"], len(result.data.polygons)
     assert result["ma_hidden"] == 0
-    select(source)
-    compute(side="OUTER", form="CLEAN", within=0.0)
+    compute(source, side="OUTER", form="CLEAN", within=0.0)
     assert 1 <= result["ma_pieces"] < pieces
     assert len(result.data.polygons) + result["ma_hidden"] == facets
     select(source)
@@ -323,11 +308,9 @@ def test_shards_of_an_outer_axis_are_hidden_but_not_as_published():
 
 def test_small_islands_are_hidden_on_demand_and_counted():
     source = suzanne(levels=0)
-    compute(sampling="AUTOMATIC")
-    result = result_of(source)
+    result = compute(sampling="AUTOMATIC")
     assert result["ma_pieces"] > 10
-    select(source)
-    compute(sampling="AUTOMATIC", smallest_island=1.0)
+    compute(source, sampling="AUTOMATIC", smallest_island=1.0)
     assert 1 <= result["ma_pieces"] <= 100 and result["ma_hidden"] > 0
     assert result.data.validate() is False
 
@@ -366,8 +349,7 @@ def test_wires_are_as_thin_as_wanted():
         bpy.context.view_layer.update()
         height = np.ptp(positions(evaluated(result))[:, 2])
         assert height == pytest.approx(np.ptp(positions(result.data)[:, 2]) + 2 * width, abs=0.01)
-    select(source)
-    compute(form="CURVE", theta=0.5)
+    compute(source, form="CURVE", theta=0.5)
     kept = inputs.input_of(wires_on(result), "Width")
     assert kept == pytest.approx(0.05), "what the artist chose stays"
 
@@ -380,9 +362,7 @@ def test_no_tube_is_thicker_than_a_fifth_of_the_ball_of_the_axis_and_no_ball_tha
     height = np.ptp(positions(evaluated(result))[:, 2])
     assert height <= np.ptp(positions(result.data)[:, 2]) + 2.001 * radius.max() / 5
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
-    ball = bpy.context.object
-    compute(form="CLEAN")
-    point = result_of(ball)
+    point = compute(form="CLEAN")
     inputs.set_inputs(wires_on(point), {"Width": 100.0})
     size = np.ptp(positions(evaluated(point)), axis=0)
     assert size == pytest.approx([2.0, 2.0, 2.0], rel=0.02)
@@ -414,9 +394,7 @@ def test_lone_points_are_counted_and_shown_on_demand():
     bpy.ops.object.join()
     settings = {"form": "CLEAN", "sampling": "SURFACE", "samples": 3000}
     for shown in (False, True):
-        select(block)
-        compute(lone_points=shown, **settings)
-        result = result_of(block)
+        result = compute(block, lone_points=shown, **settings)
         far = positions(evaluated(result))[:, 0].max() > 9.01
         assert far == shown and (result["ma_lone_points_hidden"] == 0) == shown
 
@@ -431,20 +409,17 @@ def test_many_wires_have_tubes_of_few_sides_or_none():
     edges = len(result.data.edges)
     inputs.set_inputs(wires_on(result), {"Sides": 0})
     assert not len(evaluated(result).polygons) and len(evaluated(result).edges) == edges
-    select(source)
-    compute(form="CURVE", theta=0.5)
+    compute(source, form="CURVE", theta=0.5)
     assert inputs.input_of(wires_on(result), "Sides") == 0, "what the artist chose stays"
 
 
 def test_crumbs_are_hidden_and_counted():
     source = link("Plates", *crossing_plates())
     settings = {"form": "CLEAN", "sampling": "SURFACE", "samples": 1500}
-    compute(crumbs=0.0, **settings)
-    result = result_of(source)
+    result = compute(crumbs=0.0, **settings)
     whole, pieces = len(result.data.vertices), result["ma_pieces"]
     assert result["ma_crumbs_hidden"] == 0
-    select(source)
-    compute(**settings)
+    compute(source, **settings)
     assert len(result.data.vertices) < whole and 0 < result["ma_crumbs_hidden"] < pieces
     assert result["ma_pieces"] == pieces and result.data.validate() is False
 
@@ -459,17 +434,13 @@ def test_exports_are_those_of_the_mesh(tmp_path):
 def test_a_modifier_that_was_removed_stays_away_and_comes_with_new_wires():
     source, result = curve_of_a_torus()
     result.modifiers.remove(wires_on(result))
-    select(source)
-    compute(form="CURVE", theta=0.5)
+    compute(source, form="CURVE", theta=0.5)
     assert wires_on(result) is None
-    select(source)
-    compute(form="PUBLISHED")
+    compute(source, form="PUBLISHED")
     assert wires_on(result) is None and result["ma_wires"] == 0
-    select(source)
-    compute(form="CURVE")
+    compute(source, form="CURVE")
     assert wires_on(result) is not None
-    select(source)
-    compute(form="PUBLISHED")
+    compute(source, form="PUBLISHED")
     assert wires_on(result) is None
 
 
@@ -518,15 +489,13 @@ def test_computing_changes_no_shading():
 
 def test_panel_says_which_condition_binds():
     source = torus()
-    compute(theta=1.5)
-    result = result_of(source)
+    result = compute(theta=1.5)
     theta, rho = attribute(result.data, "ma_theta"), attribute(result.data, "ma_rho")
     only_ratio, only_angle = (theta < 1.5) & (rho >= 8), (theta >= 1.5) & (rho < 8)
     assert result["ma_only_ratio"] == pytest.approx(only_ratio.mean(), abs=1e-3)
     assert result["ma_only_angle"] == pytest.approx(only_angle.mean(), abs=1e-3)
     assert result["ma_only_ratio"] > 0.5 > result["ma_only_angle"]
-    select(source)
-    compute(criteria="ANGLE")
+    compute(source, criteria="ANGLE")
     assert result["ma_only_ratio"] == 0.0
 
 

@@ -183,8 +183,7 @@ def test_other_thresholds_of_what_was_thinned_are_found_in_the_cache(tight):
     before = analyses()
     bpy.context.scene.medial_axis.rho = 4.0
     assert bpy.context.scene.medial_axis.note == ""
-    select(source)
-    compute(rho=3.0)
+    compute(source, rho=3.0)
     assert analyses() == before
 
 

@@ -101,8 +101,7 @@ def test_filter_selects_what_the_thresholds_select(theta, rho, criteria):
     source = torus()
     compute(theta=theta, rho=rho, criteria=criteria, side="INNER")
     expected = len(result_of(source).data.polygons)
-    compute(theta=0.0, rho=0.0, side="INNER")
-    result = result_of(source)
+    result = compute(theta=0.0, rho=0.0, side="INNER")
     everything = len(result.data.polygons)
     modifier = with_group(result, "FILTER")
     assert len(evaluated(result).polygons) == everything

@@ -87,8 +87,7 @@ def test_subdivided_suzanne():
     select(source)
     before = snapshot(source)
     points = evaluated_points(source)
-    compute()
-    result = result_of(source)
+    result = compute()
     assert result.name == "Suzanne Medial Axis"
     assert list(result.users_collection) == [collection]
     assert snapshot(source) == before
@@ -161,8 +160,7 @@ def test_modifiers_are_applied_as_the_viewport_shows_them():
     compute()
     assert result_of(source)["ma_points"] == 2 * count
     source.modifiers["Array"].show_viewport = False
-    select(source)
-    compute()
+    compute(source)
     assert result_of(source)["ma_points"] == count
 
 
@@ -195,13 +193,11 @@ def test_objects_that_are_no_meshes_are_passed_over():
 
 def test_running_again_updates_the_same_object():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     result.data.name = "My Axis"
     first = len(result.data.polygons)
     meshes = len(bpy.data.meshes)
-    select(source)
-    compute(theta=1.0, rho=20.0)
+    compute(source, theta=1.0, rho=20.0)
     assert result_of(source) == result and len(medial_objects()) == 1
     assert 0 < len(result.data.polygons) < first
     assert result.data.name == "My Axis" and len(bpy.data.meshes) == meshes
@@ -210,18 +206,15 @@ def test_running_again_updates_the_same_object():
 
 def test_renamed_source_and_result_are_found_again():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     source.name, result.name = "Pebble", "Bone"
-    select(source)
-    compute(theta=1.0)
+    compute(source, theta=1.0)
     assert medial_objects() == [result] and result.name == "Bone"
 
 
 def test_selected_result_is_computed_from_its_source():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     assert bpy.context.selected_objects == [result]
     compute(theta=1.0)
     assert medial_objects() == [result] and result["ma_theta"] == pytest.approx(1.0)
@@ -230,8 +223,7 @@ def test_selected_result_is_computed_from_its_source():
 
 def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     select(source)
     bpy.ops.object.delete()
     select(result)
@@ -241,16 +233,14 @@ def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
 
 def test_moved_and_changed_result_is_put_back_and_keeps_the_artists_choices():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     lies = world_positions(result)
     own = bpy.data.materials.new("Own")
     result.data.materials[0] = own
     result.location, result.show_in_front = (5, 5, 5), False
     copy = bpy.data.objects.new("Linked Duplicate", result.data)
     bpy.context.scene.collection.objects.link(copy)
-    select(source)
-    compute(criteria="ANGLE")
+    compute(source, criteria="ANGLE")
     assert list(result.data.materials) == [own] and not result.show_in_front
     assert copy.data == result.data
     bpy.context.view_layer.update()
@@ -323,8 +313,7 @@ def test_theta_and_rho_are_filtered_from_the_kept_analysis():
     assert counts[0.2] >= counts[0.6] >= counts[1.2] > 0 and counts[0.2] > counts[1.2]
     panel.rho = 40.0
     assert len(result_of(source).data.polygons) < counts[1.2]
-    select(source)
-    compute(theta=0.2)
+    compute(source, theta=0.2)
     assert len(result_of(source).data.polygons) == counts[0.2]
     assert analyses() == before
     module = addon("core.machine.native").load()
@@ -335,8 +324,7 @@ def test_theta_and_rho_are_filtered_from_the_kept_analysis():
 
 def test_sliders_act_on_the_source_too_and_leave_placement_alone():
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     result.location = (3, 0, 0)
     select(source)
     bpy.context.scene.medial_axis.criteria = "ANGLE"
@@ -374,8 +362,7 @@ def test_changed_mesh_is_analysed_again():
     before = analyses()
     source.data.vertices[0].co *= 1.01
     source.data.update()
-    select(source)
-    compute()
+    compute(source)
     assert analyses() == before + 1
 
 
@@ -407,9 +394,8 @@ def test_edit_mode_sees_modifiers():
 
 
 def test_result_in_edit_mode_is_refused():
-    source = ellipsoid()
-    compute()
-    result = result_of(source)
+    ellipsoid()
+    result = compute()
     count = len(result.data.polygons)
     bpy.ops.object.mode_set(mode="EDIT")
     with pytest.raises(RuntimeError, match="in object mode, found it in edit mode"):
@@ -439,8 +425,7 @@ def test_result_survives_saving_and_loading(tmp_path):
     assert len(result_of(source).data.polygons) == count
     bpy.context.scene.medial_axis.theta = 1.2
     assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
-    select(source)
-    compute(theta=1.2)
+    compute(source, theta=1.2)
     assert len(medial_objects()) == 1 and len(result_of(source).data.polygons) < count
     assert bpy.context.scene.medial_axis.note == ""
 

@@ -80,8 +80,7 @@ def test_point_cloud_is_read():
 
 def test_point_cloud_gives_an_inner_axis():
     source = point_cloud(on_ellipsoid(CLOUD)[0])
-    compute()
-    result = result_of(source)
+    result = compute()
     assert result.name == "Cloud Medial Axis" and result["ma_side"] == "INNER"
     assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
     assert set(attribute(result.data, "ma_side")) == {1}
@@ -96,9 +95,7 @@ def test_point_cloud_with_normals():
     points, normals = on_ellipsoid(CLOUD)
     source = point_cloud(points, normals)
     source.scale = (-1, 2, 1)
-    select(source)
-    compute()
-    result = result_of(source)
+    result = compute(source)
     assert result["ma_inside"] == "Inside from Normals: the points have no faces"
     assert result["ma_warnings"].count("too sparse") == 1 and "\n" not in result["ma_warnings"]
     inside = (world_positions(result) / (1, 1.4, 0.5)) ** 2

@@ -65,8 +65,7 @@ def test_it_is_made_once_and_follows_the_axis():
     volume_before = volume(evaluated(made))
     source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())
     source.data.update()
-    select(source)
-    compute(side="INNER")
+    compute(source, side="INNER")
     assert made.data == result_of(source).data
     assert volume(evaluated(made)) == pytest.approx(8 * volume_before, rel=0.02)
 
@@ -145,8 +144,7 @@ def test_the_group_by_itself_takes_small_axes(size):
     source = ellipsoid()
     source.scale = (size,) * 3
     bpy.context.view_layer.update()
-    compute(form="CLEAN", side="INNER", sampling="VERTICES")
-    axis = result_of(source)
+    axis = compute(form="CLEAN", side="INNER", sampling="VERTICES")
     addon("bridge.nodes.groups").add_modifier(axis, "REBUILD")
     bpy.context.view_layer.update()
     assert np.ptp(positions(evaluated(axis)), axis=0) == pytest.approx(
@@ -158,8 +156,7 @@ def test_others_step_back_and_are_measured_all_the_same():
     """Blender does not evaluate hidden objects, and a modifier of the source must count in what is measured again."""
     source = torus()
     source.modifiers.new("Wave", "DISPLACE").strength = 0.1
-    compute(form="CLEAN", side="INNER")
-    axis = result_of(source)
+    axis = compute(form="CLEAN", side="INNER")
     assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}
     made = bpy.context.object
     assert made.get("ma_rebuilt") and made.select_get() and made.visible_get()
@@ -176,8 +173,7 @@ def test_others_step_back_and_are_measured_all_the_same():
 
 def test_the_axis_may_be_where_the_view_layer_does_not_show_it():
     source = torus()
-    compute(form="CLEAN", side="INNER")
-    axis = result_of(source)
+    axis = compute(form="CLEAN", side="INNER")
     exclude(axis)
     select(source)
     assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}

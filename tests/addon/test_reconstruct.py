@@ -178,9 +178,8 @@ def test_surface_is_a_source_and_its_axis_that_of_the_scan():
     compute()
     select(source)
     reconstruct()
-    surface = surface_of(source)
-    compute()
-    result = result_of(surface)
+    surface_of(source)
+    result = compute()
     assert result.name == "Scan Surface Medial Axis" and result_of(source) != result
     assert result["ma_inside"] == "Inside from Surface: the faces are closed"
     assert len(result.data.polygons) == len(result_of(source).data.polygons)

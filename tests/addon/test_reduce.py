@@ -53,8 +53,7 @@ def test_a_small_mesh_with_radii_beside_its_axis(capfd):
 def test_by_a_button_it_takes_the_place_of_its_axis():
     """Both lie in front, in the same place."""
     source = ellipsoid()
-    compute(form="CLEAN", side="INNER")
-    axis = result_of(source)
+    axis = compute(form="CLEAN", side="INNER")
     made = reduce(source, 40)
     assert axis.visible_get(), "a script hides nothing"
     bpy.data.objects.remove(made)

@@ -8,7 +8,7 @@ import time
 
 import bpy
 import pytest
-from scene import MODULE, compute, program, result_of, select, torus
+from scene import MODULE, compute, program, select, torus
 
 # Exports the active object to the file named after `--`, again and again.
 EXPORT_FOREVER = f"""
@@ -24,8 +24,7 @@ def axis():
     """A medial axis of some ten thousand facets: to write it takes a while."""
     source = torus()
     source.modifiers.new("Subdivision", "SUBSURF").levels = 2
-    compute(side="BOTH", theta=0.0)
-    result = result_of(source)
+    result = compute(side="BOTH", theta=0.0)
     assert len(result.data.polygons) > 10_000
     select(result)
     return result

@@ -161,7 +161,7 @@ def test_metaballs_together():
     part = bpy.context.object  # of the same surface, which belongs to the first
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     assert result_of(part) == result_of(ball)
-    assert addon("ui.axis.shown").shown_thing(bpy.context) == result_of(ball)
+    assert addon("ui.settings.properties").shown_thing(bpy.context) == result_of(ball)
     assert positions(result_of(ball).data)[:, 0].min() < -1.2
 
 

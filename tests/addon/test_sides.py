@@ -77,8 +77,7 @@ def open_oriented():
 def test_automatic_says_which_and_why(make, sides, sentence):
     source = make()
     sentence = sentence.format(boundary(source.data))
-    compute()
-    result = result_of(source)
+    result = compute()
     assert (result["ma_side"], result["ma_sides"]) == ("INNER", sides)
     assert result["ma_inside"] == sentence
     assert set(attribute(result.data, "ma_side")) == {1}
@@ -99,8 +98,7 @@ def test_chosen_source_is_used_although_all_are_there(sides):
     source = ellipsoid()
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
     addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
-    compute(sides=sides)
-    result = result_of(source)
+    result = compute(sides=sides)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
     samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
     assert samples.analysis.sides_from.name == sides

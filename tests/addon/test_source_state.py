@@ -71,8 +71,7 @@ def test_a_changed_source(change):
     change(source)
     assert has_changed(result)
     if change is not flip:  # an axis of the inside needs faces that look outward
-        select(source)
-        compute()
+        compute(source)
         assert result_of(source) == result and not has_changed(result)
 
 
@@ -106,8 +105,7 @@ def test_sources_of_other_types(kind):
     if kind in ("curve", "text"):
         source.data.bevel_depth = 0.1
         source.data.extrude = 0.1
-    compute(form="CLEAN", sampling="SURFACE")
-    result = result_of(source)
+    result = compute(form="CLEAN", sampling="SURFACE")
     assert not has_changed(result)
     source.location.x += 1
     assert not has_changed(result)

@@ -36,8 +36,7 @@ def test_a_changed_group_of_wires_does_not_end_later_computations():
 
 
 def compute_of(source):
-    select(source)
-    compute(form="CLEAN", side="INNER")
+    compute(source, form="CLEAN", side="INNER")
 
 
 @pytest.mark.parametrize(
@@ -52,8 +51,7 @@ def compute_of(source):
 )
 def test_crafted_properties_do_not_stop_the_sliders(name, value):
     source = ellipsoid()
-    compute()
-    result = result_of(source)
+    result = compute()
     result[name] = value
     panel = bpy.context.scene.medial_axis
     select(result)
@@ -62,8 +60,7 @@ def test_crafted_properties_do_not_stop_the_sliders(name, value):
     assert "Traceback" not in panel.note
     settings = addon("bridge.axis.axis_object").settings_of(result)
     assert 0 < settings.theta < 1.6
-    select(source)
-    compute()
+    compute(source)
 
 
 def test_a_result_in_edit_mode_is_refused_as_before():

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
-from scene import addon, attribute, compute, ellipsoid, result_of, select, world_positions
+from scene import addon, attribute, compute, ellipsoid, result_of, world_positions
 
 ROTATION = Euler((0.4, -0.8, 1.3)).to_matrix().to_4x4()
 SHEAR = Matrix(((1, 0.7, 0, 0), (0, 1, 0.2, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
@@ -85,10 +85,8 @@ def test_result_equals_that_of_a_copy_with_applied_transform(name):
     source = ellipsoid(segments=3)
     place(source, PLACES[name], parents=list(PLACES).index(name) % 2 == 0)
     copy = applied_copy(source)
-    select(source)
-    compute()
-    select(copy)
-    compute()
+    compute(source)
+    compute(copy)
     result, expected = result_of(source), result_of(copy)
     assert result["ma_side"] == expected["ma_side"] == "INNER"
     bpy.context.view_layer.update()

@@ -63,13 +63,13 @@ class MemoryLimit(Options):
         unit="MB",
     )
     above_limit: AboveLimit = choice(
-        "Above the Limit",
-        "What is done when an analysis would need more memory",
+        "If Memory Is Short",
+        "What is done when an analysis would need more memory than the limit",
         default=AboveLimit.REFUSE,
         items={
             AboveLimit.REFUSE: ("Refuse", "Nothing is computed; a message says what it would need"),
             AboveLimit.THIN: (
-                "Thin",
+                "Fewer Samples",
                 "As many samples of the faces, or evenly spread points of a cloud, as fit",
             ),
         },
@@ -95,8 +95,8 @@ class MemoryLimit(Options):
         if needed > room:
             raise MemoryLimitError(
                 f"Expected points whose analysis fits into {self}, found {points:,}, which need about "
-                f"{megabytes(needed)}; use fewer points or samples, raise Memory Limit, or choose Thin "
-                "for Above the Limit",
+                f"{megabytes(needed)}; use fewer points or samples, raise Memory Limit, or set If Memory "
+                "Is Short to Fewer Samples",
                 points,
             )
         if not self.memory_limit:

@@ -13,12 +13,13 @@ from ...bridge.objects.source_state import remember_state, state_of
 from ...bridge.objects.step_back import seen
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task, run_task
+from ...core.settings import OPTIONS
 from ..base import current_job
-from ..base.alone import Alone
 from ..base.plain_words import told, warned
 from ..base.select_made import select_made
 from ..base.translation import say
 from ..base.watched_job import CANCELLED, WatchedJob
+from ..settings.properties import SamplingProperties, draw_sampling, prop
 from .selected_sources import Source, obstacle, sources
 
 KEPT = "Cancelled, the draft stays"  # one row
@@ -33,6 +34,17 @@ class FromSelection:
         if reason:
             cls.poll_message_set(told(reason))
         return not reason
+
+
+class Alone:
+    """An operator that hides what its product takes the place of; a button does so when the product is new."""
+
+    alone: bpy.props.BoolProperty(
+        name="Alone",
+        description="Hide what fills the same place, and select what was made",
+        default=False,
+        options={"SKIP_SAVE"},
+    )
 
 
 class ComputeOperator(FromSelection, WatchedJob):
@@ -220,3 +232,30 @@ def _sentence(errors):
     """The error of a source, or of its parts together."""
     part, error = errors[0]
     return f"{len(errors):,} parts have no result: {error}" if part else str(error)
+
+
+class SampledOperator(ComputeOperator, SamplingProperties):
+    """An operator that samples faces; it names its own options in `shown`, and those of sampling come after them."""
+
+    shown = ()
+
+    sides: prop(OPTIONS["sides"])
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in self.shown:
+            row = self.layout.row()
+            row.active = self.acts(name)
+            row.prop(self, name)
+        box = self.layout.box().column()
+        for name in ("sides", "sampling"):
+            box.prop(self, name)
+        draw_sampling(box, self, self.of_faces())
+
+    def acts(self, _name):
+        """Whether an option matters with the others as they are; else it is grey."""
+        return True
+
+    def of_faces(self):
+        """The options of sampling that matter for Vertices, too."""
+        return ()

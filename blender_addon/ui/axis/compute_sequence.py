@@ -21,7 +21,7 @@ from ...core.products.skeleton import Skeletons
 from ...core.settings import SamplingMode, SkeletonSettings
 from ..base import current_job
 from ..base.paths import chosen_files
-from ..base.plain_words import told
+from ..base.plain_words import Telling, told
 from ..base.tab import InSettings
 from ..base.translation import IN_CONTEXT, say
 from ..settings.preferences import memory_limit
@@ -250,7 +250,7 @@ def _folder(directory):
     return Path(bpy.path.abspath(directory or "//medial_axis"))
 
 
-class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
+class IMPORT_SCENE_OT_medial_axis_sequence(Telling, bpy.types.Operator, ImportHelper):
     bl_idname = "import_scene.medial_axis_sequence"
     bl_label = "Import Medial Axis Sequence"
     bl_description = (
@@ -266,15 +266,10 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
     )
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
 
-    def execute(self, context):
-        try:
-            for name, files in sequences(map(Path, chosen_files(self))):
-                collection = write_sequence(name, files)
-                self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+    def run(self, _context):
+        for name, files in sequences(map(Path, chosen_files(self))):
+            collection = write_sequence(name, files)
+            self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
 
 
 def copy_sequence(scene, button):

@@ -6,13 +6,11 @@ import bpy
 from ...bridge.axis.read_axis import find_axis
 from ...bridge.nodes.wires import WIRES
 from ...bridge.skeleton.curve_object import write_curve
-from ...core.errors import MedialAxisError
-from ..base.plain_words import told
+from ..base.plain_words import Needing, Telling
 from ..base.select_made import bring_into_view_layer, select_made
-from ..base.translation import say
 
 
-class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
+class OBJECT_OT_medial_axis_to_curve(Needing, Telling, bpy.types.Operator):
     bl_idname = "object.medial_axis_to_curve"
     bl_label = "Convert to Curve"
     bl_description = (
@@ -21,20 +19,14 @@ class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        axis = find_axis(context.active_object)
-        if axis is None or not axis.get(WIRES, 0):
-            cls.poll_message_set(say("Select a medial axis with loose edges, as of Form Curve"))
-            return False
-        return True
+    needs = "Select a medial axis with loose edges, as of Form Curve"
 
-    def execute(self, context):
-        try:
-            made = write_curve(find_axis(context.active_object))
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(str(error)))
-            return {"CANCELLED"}
+    @classmethod
+    def find(cls, context):
+        axis = find_axis(context.active_object)
+        return axis if axis is not None and axis.get(WIRES, 0) else None
+
+    def run(self, context):
+        made = write_curve(self.find(context))
         bring_into_view_layer(context, made)
         select_made(context, [made])
-        return {"FINISHED"}

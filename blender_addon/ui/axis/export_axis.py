@@ -12,12 +12,11 @@ from ...bridge.objects.read_object import read_object
 from ...core.axis.medial_axis import MedialAxis
 from ...core.cover.ball_cover import cover_by_balls
 from ...core.cover.write_balls import export_balls
-from ...core.errors import InvalidInputError, MedialAxisError
+from ...core.errors import InvalidInputError
 from ...core.files.write import FORMATS, export_axis
 from ...core.settings import BALL_OPTIONS, BallSettings, CoverMode, CoverShapes
 from ..base.export_file import ExportFile
-from ..base.plain_words import told
-from ..base.translation import say
+from ..base.plain_words import Needing, Telling
 from ..settings.preferences import memory_limit
 from ..settings.properties import prop
 
@@ -29,7 +28,7 @@ _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
 
-class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
+class EXPORT_SCENE_OT_medial_axis(Needing, Telling, ExportFile, bpy.types.Operator):
     bl_idname = "export_scene.medial_axis"
     bl_label = "Export Medial Axis"
     bl_description = (
@@ -60,13 +59,8 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     refine: prop(BALL_OPTIONS["refine"])
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if _thing(context) is None:
-            cls.poll_message_set(
-                say("Select a medial axis, or an object whose medial axis was computed before")
-            )
-            return False
-        return True
+    def find(cls, context: bpy.types.Context) -> bpy.types.Object | None:
+        return _thing(context)
 
     @property
     def extensions(self) -> dict[str, str]:
@@ -75,15 +69,10 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     def default_name(self, context: bpy.types.Context) -> str:
         return _thing(context).name
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> str:
         context.view_layer.update()  # scripts may have moved the object
-        try:
-            size, written = self._write(context, _thing(context), self.chosen_path)
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote {size} to '{written.name}'"))
-        return {"FINISHED"}
+        size, written = self._write(context, _thing(context), self.chosen_path)
+        return f"Wrote {size} to '{written.name}'"
 
     def _write(self, context, thing, path):
         """A sentence for people: how much was written, and to which file."""

@@ -20,7 +20,7 @@ from ..base.plain_words import draw_told, warned
 from ..base.show import shows_colours
 from ..base.tab import draws_buttons
 from ..base.translation import say
-from ..base.wrapped_text import draw_wrapped
+from ..base.wrapped_text import draw_figures, draw_wrapped
 from ..settings.guide import WHY
 from ..settings.properties import copy_settings, needs_analysis
 from .inward_faces import draw_inward_faces
@@ -46,13 +46,13 @@ def draw_result(context, layout, result):
         draw_wrapped(context, layout, text, "INFO")
     if not _draw_legend(context, layout, result):
         radii = _range_text(context, *axis_object.radius_range(result))
-        _draw_figures(layout, {"Radius": radii}, 0.3)
+        draw_figures(layout, {"Radius": radii}, 0.3)
 
 
 def draw_sequence(context, layout, frame):
     """The radii of a frame of a sequence, whose colours are those of all its frames."""
     _draw_name(layout, frame)
-    _draw_figures(layout, {"Radius": _range_text(context, frame[RADIUS_MIN], frame[RADIUS_MAX])})
+    draw_figures(layout, {"Radius": _range_text(context, frame[RADIUS_MIN], frame[RADIUS_MAX])})
     _draw_legend(context, layout, frame)
 
 
@@ -61,7 +61,7 @@ def draw_report(context, layout, report):
     _draw_name(layout, report)
     limit = report.get(LIMIT, 0.0)
     share = 100 * report.get(report_object.SHARE, 0.0)
-    _draw_figures(
+    draw_figures(
         layout,
         {
             "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
@@ -223,13 +223,4 @@ def _draw_name(layout, thing):
 
 def _draw_table(layout, thing, figures):
     _draw_name(layout, thing)
-    _draw_figures(layout, figures)
-
-
-def _draw_figures(layout, figures, share=0.45):
-    """Rows of a label, which has a share of the width, and a text."""
-    column = layout.column(align=True)
-    for label, text in figures.items():
-        row = column.split(factor=share)
-        row.label(text=say(label), translate=False)
-        row.label(text=say(text), translate=False)
+    draw_figures(layout, figures)

@@ -7,8 +7,7 @@ from ...bridge.axis.axis_object import TURNED, is_result
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness.inward_faces import select_inward, turn_inward
 from ...core.errors import MedialAxisError
-from ..base.plain_words import told
-from ..base.translation import say
+from ..base.plain_words import Needing, Telling
 
 
 def _mesh_of(context):
@@ -20,7 +19,7 @@ def _mesh_of(context):
     return None if is_gone(thing) or thing.type != "MESH" else thing
 
 
-class OBJECT_OT_medial_axis_inward_faces(bpy.types.Operator):
+class OBJECT_OT_medial_axis_inward_faces(Needing, Telling, bpy.types.Operator):
     bl_idname = "object.medial_axis_inward_faces"
     bl_label = "Inward Faces"
     bl_description = "Faces of the mesh that look inward by votes of rays. The medial axis does not depend on this"
@@ -36,26 +35,17 @@ class OBJECT_OT_medial_axis_inward_faces(bpy.types.Operator):
         default="SELECT",
     )
 
-    @classmethod
-    def poll(cls, context):
-        if _mesh_of(context) is None:
-            cls.poll_message_set(say("Select a mesh, or a medial axis whose mesh is still there"))
-            return False
-        return True
+    needs = "Select a mesh, or a medial axis whose mesh is still there"
+    find = staticmethod(_mesh_of)
 
-    def execute(self, context):
+    def run(self, context):
         thing = _mesh_of(context)
         try:
             if self.action == "TURN":
-                count = turn_inward(thing)
-                self.report({"INFO"}, say(f"{count:,} faces were turned round"))
-            else:
-                count = select_inward(thing)
-                self.report({"INFO"}, say(f"{count:,} faces look inward"))
+                return f"{turn_inward(thing):,} faces were turned round"
+            return f"{select_inward(thing):,} faces look inward"
         except MedialAxisError as error:
-            self.report({"ERROR"}, told(f"'{thing.name}': {error}"))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+            raise MedialAxisError(f"'{thing.name}': {error}") from error
 
 
 def draw_inward_faces(layout, result):

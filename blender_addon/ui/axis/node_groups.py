@@ -6,10 +6,11 @@ import bpy
 from ...bridge.axis.read_axis import find_axis
 from ...bridge.nodes.groups import GROUPS, add_few_balls, add_modifier
 from ...bridge.nodes.inputs import input_of
+from ..base.plain_words import Needing
 from ..base.translation import say
 
 
-class OBJECT_OT_medial_axis_nodes(bpy.types.Operator):
+class OBJECT_OT_medial_axis_nodes(Needing, bpy.types.Operator):
     bl_idname = "object.medial_axis_nodes"
     bl_label = "Add Medial Axis Nodes"
     bl_description = "Give the medial axis a modifier of Geometry Nodes, which is live"
@@ -23,13 +24,8 @@ class OBJECT_OT_medial_axis_nodes(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
-        if find_axis(context.active_object) is None:
-            cls.poll_message_set(
-                say("Select a medial axis, or an object whose medial axis was computed before")
-            )
-            return False
-        return True
+    def find(cls, context):
+        return find_axis(context.active_object)
 
     def execute(self, context):
         axis = find_axis(context.active_object)

@@ -40,14 +40,13 @@ from ..base.translation import say
 from ..settings.guide import end_guide
 from ..settings.preferences import memory_limit
 from ..settings.properties import (
-    SamplingProperties,
     draw_sampling,
     look_from,
     prop,
     settings_from,
     with_options,
 )
-from .compute_operator import ComputeOperator
+from .compute_operator import ComputeOperator, SampledOperator
 
 
 @with_options(OPTIONS | LOOKS | DIVISION)
@@ -128,9 +127,7 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         return ", ".join(betti_in_short(betti))
 
 
-class OBJECT_OT_medial_axis_sampling_report(
-    ComputeOperator, SamplingProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_sampling_report(SampledOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_sampling_report"
     bl_label = "Report Sampling"
     bl_description = (
@@ -141,8 +138,8 @@ class OBJECT_OT_medial_axis_sampling_report(
 
     product = "report"
 
+    shown = ("target", "side", "colours", "parent")
     side: prop(OPTIONS["side"])
-    sides: prop(OPTIONS["sides"])
     target: bpy.props.EnumProperty(
         name="Write To",
         description="Where the attribute ma_epsilon is written",
@@ -164,12 +161,6 @@ class OBJECT_OT_medial_axis_sampling_report(
     )
     colours: prop(LOOKS["colours"])
     parent: prop(LOOKS["parent"])
-
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in ("target", "side", "sides", "sampling", "colours", "parent"):
-            self.layout.prop(self, name)
-        draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
         check_source_writable(thing) if self.target == "SOURCE" else check_report_writable(thing)

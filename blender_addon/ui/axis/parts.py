@@ -8,12 +8,12 @@ from ...bridge.axis.parts_objects import part_of_active_face, select_part, separ
 from ...bridge.axis.structure_object import counts_on
 from ...bridge.mesh.attributes import PART, has_attribute
 from ...bridge.objects.output_object import is_gone
-from ...core.errors import MedialAxisError
 from ...core.settings import Form
-from ..base.plain_words import told
+from ..base.plain_words import Needing, Telling
 from ..base.tab import InDetails, settings_column
 from ..base.translation import say
 from ..base.view_place import edit_faces
+from ..base.wrapped_text import draw_figures
 from ..settings.properties import shown_result
 
 _NONE = "Select a medial axis of the form Clean, or an object whose medial axis was computed before"
@@ -36,15 +36,10 @@ def _axis(context):
     return found if found is not None and has_attribute(found.data, PART.name) else None
 
 
-class _OfParts:
+class _OfParts(Needing):
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        if _axis(context) is None:
-            cls.poll_message_set(say(_NONE))
-            return False
-        return True
+    find, needs = staticmethod(_axis), _NONE
 
 
 class OBJECT_OT_medial_axis_select_part(_OfParts, bpy.types.Operator):
@@ -78,21 +73,16 @@ class OBJECT_OT_medial_axis_select_part(_OfParts, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
+class OBJECT_OT_medial_axis_separate_parts(_OfParts, Telling, bpy.types.Operator):
     bl_idname = "object.medial_axis_separate_parts"
     bl_label = "Separate Parts"
     bl_description = (
         "Make an object of each sheet of the medial axis, in a collection; the axis stays as it is"
     )
 
-    def execute(self, context):
-        try:
-            collection = separate_parts(_axis(context))
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(f"{len(collection.objects):,} parts in '{collection.name}'"))
-        return {"FINISHED"}
+    def run(self, context):
+        collection = separate_parts(_axis(context))
+        return f"{len(collection.objects):,} parts in '{collection.name}'"
 
 
 class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
@@ -116,8 +106,5 @@ class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
         settings_column(layout).prop(context.scene.medial_axis, "by_part")
         layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
         layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
-        column = layout.column(align=True)
-        for name, count in counts_on(_axis(context)).items():
-            row = column.split(factor=0.6)
-            row.label(text=say(_LABELS[name]), translate=False)
-            row.label(text=f"{count:,}", translate=False)
+        counts = counts_on(_axis(context)).items()
+        draw_figures(layout, {_LABELS[name]: f"{count:,}" for name, count in counts}, 0.6)

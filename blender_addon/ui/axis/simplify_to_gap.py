@@ -5,11 +5,11 @@ import bpy
 
 from ...bridge.axis.slider_ranges import gap_on
 from ...core.settings import Form
-from ..base.translation import say
+from ..base.plain_words import Needing
 from ..settings.properties import shown_result
 
 
-class OBJECT_OT_medial_axis_simplify_to_gap(bpy.types.Operator):
+class OBJECT_OT_medial_axis_simplify_to_gap(Needing, bpy.types.Operator):
     bl_idname = "object.medial_axis_simplify_to_gap"
     bl_label = "Simplify to Gap"
     bl_description = (
@@ -18,18 +18,13 @@ class OBJECT_OT_medial_axis_simplify_to_gap(bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    needs = "Select a medial axis of Form Clean that has thin sheets and others, and a clear gap between them"
+
     @classmethod
-    def poll(cls, context):
+    def find(cls, context):
         is_clean = context.scene.medial_axis.form == Form.CLEAN.name
-        if not is_clean or gap_on(shown_result(context)) is None:
-            cls.poll_message_set(
-                say(
-                    "Select a medial axis of Form Clean that has thin sheets and others, and a clear gap between them"
-                )
-            )
-            return False
-        return True
+        return gap_on(shown_result(context)) if is_clean else None
 
     def execute(self, context):
-        context.scene.medial_axis.simplify = gap_on(shown_result(context))
+        context.scene.medial_axis.simplify = self.find(context)
         return {"FINISHED"}

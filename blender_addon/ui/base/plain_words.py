@@ -11,6 +11,7 @@ import textwrap
 import bpy
 
 from ...core.axis.verdict import in_short
+from ...core.errors import MedialAxisError
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -82,6 +83,33 @@ def draw_told(context, layout, sentence, icon, plain=in_one_line):
 def told(sentence):
     """A sentence as operators report it: its one line in a window, and all of it to scripts."""
     return say(sentence if bpy.app.background else in_one_line(str(sentence)))
+
+
+class Needing:
+    """An operator that needs what its `find(context)` finds; where that is None, it says what to select."""
+
+    needs = "Select a medial axis, or an object whose medial axis was computed before"
+
+    @classmethod
+    def poll(cls, context):
+        found = cls.find(context)
+        if found is None:
+            cls.poll_message_set(say(cls.needs))
+        return found is not None
+
+
+class Telling:
+    """An operator whose `run(context)` returns a sentence, or nothing; errors are told, and end it."""
+
+    def execute(self, context):
+        try:
+            sentence = self.run(context)
+        except MedialAxisError as error:
+            self.report({"ERROR"}, told(error))
+            return {"CANCELLED"}
+        if sentence:
+            self.report({"INFO"}, say(sentence))
+        return {"FINISHED"}
 
 
 def doing(stage):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sentences in panels: Blender's labels do not wrap."""
+"""Texts in panels: sentences, which Blender's labels do not wrap, and rows of figures."""
 
 import textwrap
 
@@ -22,3 +22,12 @@ def draw_wrapped(context, layout, text, icon="NONE", icon_value=0, beside=0):
             column.label(text=line, icon="BLANK1" if number else icon, translate=False)
         else:
             column.label(text=line, icon_value=icon_value, translate=False)
+
+
+def draw_figures(layout, figures, share=0.45):
+    """Rows of a label, which has a share of the width, and a text."""
+    column = layout.column(align=True)
+    for label, text in figures.items():
+        row = column.split(factor=share)
+        row.label(text=say(label), translate=False)
+        row.label(text=say(text), translate=False)

@@ -16,14 +16,21 @@ from ..axis.figures import (
     draw_surface,
 )
 from ..axis.selected_sources import has_faces, obstacle, sources
-from ..axis.shown import shown_frame, shown_thing
 from ..base import current_job
 from ..base.plain_words import doing, draw_told
 from ..base.show import draw_colours, shows_colours
 from ..base.tab import DETAILS, MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 from ..settings.guide import draw_guide
 from ..settings.presets import VIEW3D_PT_medial_axis_presets
-from ..settings.properties import copy_settings, note_of, shown_report, shown_result, shown_surface
+from ..settings.properties import (
+    copy_settings,
+    note_of,
+    shown_frame,
+    shown_report,
+    shown_result,
+    shown_surface,
+    shown_thing,
+)
 from .form_panel import draw_form
 
 _drawn = {}  # a sidebar -> what its panels were drawn for

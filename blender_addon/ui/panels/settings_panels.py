@@ -5,9 +5,8 @@ import bpy
 
 from ...bridge.nodes.wires import width_of, wires_of
 from ...core.settings import AS_IN_PAPER, SAMPLING_OPTIONS, Form, applies_to_form
-from ..axis.shown import shown_thing
 from ..base.tab import SETTINGS, Closed, InSettings, draw_setting, draws_buttons, settings_column
-from ..settings.properties import copy_settings, draw_sampling, settings_from
+from ..settings.properties import copy_settings, draw_sampling, settings_from, shown_thing
 from .form_panel import draw_more_of_form
 
 

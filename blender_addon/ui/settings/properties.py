@@ -25,6 +25,7 @@ from ...bridge.axis.shown_axis import shown_axis
 from ...bridge.nodes.wires import wires_group
 from ...bridge.objects.output_object import WARNINGS, is_gone, is_torn, source_of
 from ...bridge.objects.read_object import SOURCE_TYPES
+from ...bridge.skeleton.sequence_objects import FRAME
 from ...bridge.surface_object import is_surface, surface_of
 from ...bridge.thickness.heat_map import show_axis, shown_heat
 from ...core.axis.compute import refilter, refiltered_topology
@@ -183,6 +184,17 @@ def shown_surface(context):
 def shown_report(context):
     """The report that the panel describes: the active object, or the report that was made of it."""
     return _shown(context, has_report, report_of)
+
+
+def shown_frame(context):
+    """The active object, where it is a frame of a sequence."""
+    active = context.object
+    return active if active is not None and FRAME in active else None
+
+
+def shown_thing(context):
+    """A frame of a sequence, a medial axis, or a report."""
+    return shown_frame(context) or shown_result(context) or shown_report(context)
 
 
 def _shown(context, is_kind, of_source):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Extract Skeleton and Make Armature."""
 
+from dataclasses import dataclass
 from functools import partial
 
 import bpy
@@ -31,20 +32,18 @@ from ...core.rig.rig import compute_rig
 from ...core.settings import (
     BIND,
     LOOKS,
-    OPTIONS,
     RIG_OPTIONS,
     SKELETON_OPTIONS,
     LimbControl,
     SkeletonSettings,
 )
+from ...core.shape.shape import Shape
 from ...core.skeleton.compute import compute_skeleton
-from ..axis.compute_operator import ComputeOperator
+from ..axis.compute_operator import SampledOperator
 from ..base.translation import say
 from ..settings.preferences import memory_limit
 from ..settings.properties import (
-    SamplingProperties,
     copy_settings,
-    draw_sampling,
     prop,
     settings_from,
     with_options,
@@ -62,31 +61,27 @@ class SkeletonProperties:
     """The options of a skeleton."""
 
 
-class WithEnds:
-    """An operator that can keep only what joins the ends that are selected on the object."""
+@dataclass(frozen=True)
+class _Wanted:
+    """A shape, the ends on it that are kept, and the settings of the curve that is shown of it, if there are any."""
+
+    shape: Shape
+    ends: object
+    shown: object
+
+    @property
+    def frame(self):
+        return self.shape.frame
+
+
+class SkeletonOperator(SampledOperator, SkeletonProperties):
+    """The base of the two, which can keep what joins the selected ends, and can start from the curve that is seen."""
 
     selected_ends: bpy.props.BoolProperty(
         name="Selected Ends",
         description="Keep only what joins the vertices that are selected in Edit Mode, one or a few at each end",
         default=False,
     )
-
-    def settings(self, shape):
-        """The arguments of `compute_skeleton` after the shape, and the ends."""
-        ends = self._ends.pop(id(shape), None)
-        return (settings_from(self), settings_from(self, SkeletonSettings)), ends
-
-    def with_ends(self, thing, shape):
-        """The same shape; its ends are remembered for `settings`."""
-        self._ends = getattr(self, "_ends", {})
-        if self.selected_ends:
-            self._ends[id(shape)] = selected_ends(thing, shape)
-        return shape
-
-
-class WithCurve:
-    """An operator that can start from the curve that is seen."""
-
     as_shown: bpy.props.BoolProperty(
         name="As Shown",
         description="Keep the loops and branches of the curve that is shown, where Form is Curve and its Detail is "
@@ -94,14 +89,16 @@ class WithCurve:
         default=True,
     )
 
-    def remember_shown(self, thing, shape):
-        """Remember the settings of the curve of an object for `shown_of` the shape that is read from it."""
-        self._shown = getattr(self, "_shown", {})
-        if self.as_shown:
-            self._shown[id(shape)] = shown_curve(thing)
+    def read(self, thing, depsgraph):
+        shape = read_object(thing, depsgraph)
+        ends = selected_ends(thing, shape) if self.selected_ends else None
+        return _Wanted(shape, ends, shown_curve(thing) if self.as_shown else None)
 
-    def shown_of(self, shape):
-        return self._shown.pop(id(shape), None)
+    def computed(self, compute, wanted, *more):
+        """The work of a task: a skeleton, or what is made of one."""
+        settings = settings_from(self), settings_from(self, SkeletonSettings), *more
+        words = {"limit": memory_limit(), "ends": wanted.ends, "shown": wanted.shown}
+        return partial(compute, wanted.shape, *settings, **words)
 
 
 @with_options(RIG_OPTIONS)
@@ -119,14 +116,7 @@ def copy_all(context, button) -> None:
     )
 
 
-class OBJECT_OT_medial_axis_skeleton(
-    ComputeOperator,
-    WithEnds,
-    WithCurve,
-    SamplingProperties,
-    SkeletonProperties,
-    bpy.types.Operator,
-):
+class OBJECT_OT_medial_axis_skeleton(SkeletonOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_skeleton"
     bl_label = "Extract Skeleton"
     bl_description = (
@@ -135,8 +125,8 @@ class OBJECT_OT_medial_axis_skeleton(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "skeleton"
+    shown = (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent")
 
-    sides: prop(OPTIONS["sides"])
     parent: prop(LOOKS["parent"])
     parts: bpy.props.BoolProperty(
         name="Parts",
@@ -145,28 +135,13 @@ class OBJECT_OT_medial_axis_skeleton(
         default=False,
     )
 
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent", "sides"):
-            self.layout.prop(self, name)
-        self.layout.prop(self, "sampling")
-        draw_sampling(self.layout.box().column(), self)
-
     def check_writable(self, thing):
         check_skeleton_writable(thing)
         if self.parts:
             check_parts_writable(thing)
 
-    def read(self, thing, depsgraph):
-        shape = read_object(thing, depsgraph)
-        self.remember_shown(thing, shape)
-        return self.with_ends(thing, shape)
-
-    def work(self, shape):
-        settings, ends = self.settings(shape)
-        shown = self.shown_of(shape)
-        limit = memory_limit()
-        return partial(compute_skeleton, shape, *settings, limit=limit, ends=ends, shown=shown)
+    def work(self, wanted):
+        return self.computed(compute_skeleton, wanted)
 
     def write(self, thing, found, frame):
         made = write_skeleton(thing, found, frame)
@@ -179,15 +154,7 @@ class OBJECT_OT_medial_axis_skeleton(
         return f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops"
 
 
-class OBJECT_OT_medial_axis_armature(
-    ComputeOperator,
-    WithEnds,
-    WithCurve,
-    SamplingProperties,
-    SkeletonProperties,
-    ArmatureProperties,
-    bpy.types.Operator,
-):
+class OBJECT_OT_medial_axis_armature(SkeletonOperator, ArmatureProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_armature"
     bl_label = "Make Armature"
     bl_description = (
@@ -197,8 +164,8 @@ class OBJECT_OT_medial_axis_armature(
 
     product = "armature"
     parent = False  # the object follows its bones
+    shown = (*SKELETON_OPTIONS, "as_shown", "selected_ends")
 
-    sides: prop(OPTIONS["sides"])
     replace_weights: bpy.props.BoolProperty(
         name="Replace Weights",
         description="Replace weights also where they were painted since they were made",
@@ -209,14 +176,12 @@ class OBJECT_OT_medial_axis_armature(
         description="Add the bones to this armature; without a name, the object gets one of its own",
     )
 
-    def draw(self, _context):
+    def draw(self, context):
         self.layout.use_property_split = True
         for name in (*RIG_OPTIONS, "bind", "replace_weights"):
             self.layout.prop(self, name)
         self.layout.prop_search(self, "armature", bpy.data, "objects")
-        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "sides", "sampling"):
-            self.layout.prop(self, name)
-        draw_sampling(self.layout.box().column(), self)
+        super().draw(context)
 
     def check_writable(self, thing):
         check_bindable(thing, self.bind != "NONE", self.replace_weights)
@@ -224,14 +189,10 @@ class OBJECT_OT_medial_axis_armature(
 
     def read(self, thing, _depsgraph):
         with in_rest(thing):
-            shape = read_object(thing, bpy.context.evaluated_depsgraph_get())
-            self.remember_shown(thing, shape)
-            return self.with_ends(thing, shape)
+            return super().read(thing, bpy.context.evaluated_depsgraph_get())
 
-    def work(self, shape):
-        settings, ends = self.settings(shape)
-        words = {"limit": memory_limit(), "ends": ends, "shown": self.shown_of(shape)}
-        return partial(compute_rig, shape, *settings, self.per_limb, **words)
+    def work(self, wanted):
+        return self.computed(compute_rig, wanted, self.per_limb)
 
     def write(self, thing, rig, frame):
         taken, into = groups_of_others(thing), find_armature(self.armature)

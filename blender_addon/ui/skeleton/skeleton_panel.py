@@ -9,7 +9,7 @@ from ...bridge.skeleton.armature_object import BONES, armature_of, is_armature
 from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
 from ..base.plain_words import draw_told, warned
 from ..base.tab import Closed, draw_setting, draws_buttons, settings_column
-from ..base.translation import say
+from ..base.wrapped_text import draw_figures
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
 
 
@@ -54,9 +54,6 @@ def _draw_figures(context, layout, thing):
             label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
         }
     layout.label(text=thing.name, icon="DOT", translate=False)
-    for label, number in figures.items():
-        row = layout.split(factor=0.45)
-        row.label(text=say(label), translate=False)
-        row.label(text=f"{number:,}", translate=False)
+    draw_figures(layout, {label: f"{number:,}" for label, number in figures.items()})
     for warning in thing.get(output_object.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)

@@ -13,8 +13,7 @@ from ...core.thickness.thin_parts import find_thin_parts
 from ...core.thickness.write_thickness import THICKNESS_FORMATS, export_thickness
 from ..axis.selected_sources import sources
 from ..base.export_file import ExportFile
-from ..base.plain_words import told
-from ..base.translation import say
+from ..base.plain_words import Needing, Telling, told
 from .thickness_properties import shown_thickness
 
 _LABELS = {
@@ -28,7 +27,7 @@ assert set(_EXTENSIONS.values()) == set(THICKNESS_FORMATS)
 _METRIC = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm"}
 
 
-class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
+class EXPORT_SCENE_OT_medial_axis_thickness(Needing, Telling, ExportFile, bpy.types.Operator):
     bl_idname = "export_scene.medial_axis_thickness"
     bl_label = "Export Thickness"
     bl_description = "Write the measured thickness of the active object, in world coordinates"
@@ -48,12 +47,8 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
         default=True,
     )
 
-    @classmethod
-    def poll(cls, context):
-        if shown_thickness(context) is None:
-            cls.poll_message_set(say("Select an object whose thickness was measured before"))
-            return False
-        return True
+    needs = "Select an object whose thickness was measured before"
+    find = staticmethod(shown_thickness)
 
     @property
     def extensions(self):
@@ -62,16 +57,11 @@ class EXPORT_SCENE_OT_medial_axis_thickness(ExportFile, bpy.types.Operator):
     def default_name(self, context):
         return f"{_measured(context).name} Thickness"
 
-    def execute(self, context):
+    def run(self, context):
         chosen = list(sources(context))
         paged = self.one_page and len(chosen) > 1 and self.chosen_path.lower().endswith(".html")
-        try:
-            written = self._write_page(context, chosen) if paged else self._write_active(context)
-        except MedialAxisError as error:
-            self.report({"ERROR"}, told(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote the thickness to '{written.name}'"))
-        return {"FINISHED"}
+        written = self._write_page(context, chosen) if paged else self._write_active(context)
+        return f"Wrote the thickness to '{written.name}'"
 
     def _write_active(self, context):
         found, parts = _kept(context, shown_thickness(context))

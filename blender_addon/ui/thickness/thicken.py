@@ -18,12 +18,12 @@ from ...bridge.thickness.thicken_modifier import (
 )
 from ...bridge.thickness.thickness_object import check_thickness_writable, write_thickness
 from ...core.samples.density import share_text
-from ...core.settings import THICKEN_OPTIONS, Moving, ThickenSettings
+from ...core.settings import LOOKS, THICKEN_OPTIONS, Moving, ThickenSettings
 from ...core.thickness.thicken import Thickened, thicken
 from ...core.thickness.thin_in_part import DIVISIONS, faces_to_divide
+from ..axis.compute_operator import SampledOperator
 from ..settings.preferences import memory_limit
-from ..settings.properties import settings_from, with_options
-from .wall_operator import WallOperator
+from ..settings.properties import prop, settings_from, with_options
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class ThickenProperties:
     """The options of thicker walls."""
 
 
-class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_thicken(SampledOperator, ThickenProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_thicken"
     bl_label = "Thicken to the Limit"
     bl_description = (
@@ -85,6 +85,7 @@ class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.O
         )
 
     product = "thicker walls"
+    parent: prop(LOOKS["parent"])
     shown = THICKEN_OPTIONS
 
     @staticmethod
@@ -103,9 +104,6 @@ class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.O
         by_selection = self.moving == Moving.SELECTED.name
         chosen = selected_triangles(thing) if by_selection else None
         return _Walls(read_object(thing, depsgraph), chosen, steps)
-
-    def divided(self, walls):
-        return {"": walls}, ()
 
     def work(self, walls):
         # The mesh itself is divided, so there is nothing left for the core to divide.

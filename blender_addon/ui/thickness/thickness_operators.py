@@ -18,21 +18,20 @@ from ...bridge.thickness.thickness_object import (
     write_thickness,
 )
 from ...bridge.thickness.thin_selection import least_of, patch_at, patches_of, select_thin
-from ...core.settings import LOOKS, OPTIONS, THICKNESS_OPTIONS, Noise, ThicknessSettings
+from ...core.settings import LOOKS, THICKNESS_OPTIONS, Noise, ThicknessSettings
 from ...core.thickness.thickness import measure_thickness
 from ...core.thickness.thin_parts import find_thin_parts
-from ..axis.compute_operator import ComputeOperator
+from ..axis.compute_operator import SampledOperator
+from ..base.plain_words import Needing
 from ..base.show import show_colours, shows_colours
 from ..base.translation import say
 from ..base.view_place import edit_faces, show_place, viewport_of
 from ..settings.preferences import memory_limit
-from ..settings.properties import SamplingProperties, draw_sampling, prop, settings_from
+from ..settings.properties import prop, settings_from
 from .thickness_properties import ThicknessProperties, shown_thickness
 
 
-class OBJECT_OT_medial_axis_thickness(
-    ComputeOperator, ThicknessProperties, SamplingProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_thickness(SampledOperator, ThicknessProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_thickness"
     bl_label = "Measure Thickness"
     bl_description = (
@@ -44,7 +43,7 @@ class OBJECT_OT_medial_axis_thickness(
     product = "thickness"
     check_writable = staticmethod(check_thickness_writable)
 
-    sides: prop(OPTIONS["sides"])
+    shown = THICKNESS_OPTIONS
     parent: prop(LOOKS["parent"])
 
     def modal(self, context, event):
@@ -53,16 +52,8 @@ class OBJECT_OT_medial_axis_thickness(
             _colour_view(viewport_of(context))
         return ended
 
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in THICKNESS_OPTIONS:
-            row = self.layout.row()
-            row.active = name != "edges" or self.noise == Noise.CLEAN.name
-            row.prop(self, name)
-        box = self.layout.box().column()
-        for name in ("sides", "sampling"):
-            box.prop(self, name)
-        draw_sampling(box, self)
+    def acts(self, name):
+        return name != "edges" or self.noise == Noise.CLEAN.name
 
     def work(self, shape):
         wanted = settings_from(self, ThicknessSettings)
@@ -84,7 +75,7 @@ class OBJECT_OT_medial_axis_thickness(
         return text
 
 
-class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
+class OBJECT_OT_medial_axis_thin_place(Needing, bpy.types.Operator):
     bl_idname = "object.medial_axis_thin_place"
     bl_label = "Show Thin Place"
     bl_description = "Select the faces of a thin place in edit mode, and look at it"
@@ -103,13 +94,12 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
+    needs = "Select an object whose thickness was measured before"
+
     @classmethod
-    def poll(cls, context):
+    def find(cls, context):
         carrier = shown_thickness(context)
-        if carrier is None or LEAST not in carrier:
-            cls.poll_message_set(say("Select an object whose thickness was measured before"))
-            return False
-        return True
+        return carrier if carrier is not None and LEAST in carrier else None
 
     def execute(self, context):
         carrier = shown_thickness(context)

@@ -135,6 +135,12 @@ def look(name):
     assert int(colours) > 500, f"{path} shows {colours} colours only"
 
 
+def look_after(seconds, name):
+    """Keep a picture after a while, which Blender has for drawing."""
+    yield patience(seconds)
+    look(name)
+
+
 def patience(seconds):
     """A limit for a machine that is not overloaded, stretched by how much it is."""
     return seconds * max(1.0, os.getloadavg()[0] / len(os.sched_getaffinity(0)))
@@ -157,7 +163,7 @@ def monkey():
     """Suzanne under a Subdivision Surface modifier instead of the default cube."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
     mesh = bpy.data.meshes.new("Suzanne")
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.mesh.primitive_monkey_add()
     bpy.data.meshes.remove(mesh)
     source = bpy.data.objects["Suzanne"]
@@ -201,6 +207,12 @@ def job_runs():
     return job().fraction > 0.02
 
 
+def computed():
+    """Click the button, and wait for the result."""
+    yield from click(*at(COMPUTE))
+    yield result_exists
+
+
 def no_job():
     return job() is None
 
@@ -239,18 +251,15 @@ def scene_compute_drag_undo():
     monkey()
     yield from open_tab()
     look("before")
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield 0.5
-    look("computed")
+    yield from computed()
+    yield from look_after(0.5, "computed")
     assert [thing.name for thing in medial_objects()] == ["Suzanne Medial Axis"]
     assert bpy.context.window_manager.operators[-1].bl_idname == "OBJECT_OT_medial_axis"
     first, before = facets(), analyses()
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
     yield from drag((220, 320), (250, 320))  # its theta
-    yield 1.0
-    look("adjusted")
+    yield from look_after(1.0, "adjusted")
     adjusted = facets()
     assert 0 < adjusted < first and len(medial_objects()) == 1
     assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] > 0.42  # it was pi / 8
@@ -285,23 +294,20 @@ def scene_draft():
     with held(addon("core.axis.compute"), "extract", 4_000):
         yield from click(*at(COMPUTE))
         yield medial_objects
-        yield patience(1.0)
-        look("draft")
+        yield from look_after(1.0, "draft")
         assert job() is not None and medial_objects()[0]["ma_draft"]
         yield from key("Escape")
         yield no_job
     assert "draft stays" in bpy.context.scene.medial_axis.note
     few = facets()
-    yield 0.5
-    look("kept")
+    yield from look_after(0.5, "kept")
     yield from key("ctrl+z")
     assert medial_objects() == []
     yield from key("ctrl+shift+z")
     assert facets() == few
     yield from click(*at(COMPUTE))
     yield lambda: no_job() and "ma_draft" not in medial_objects()[0]
-    yield 0.5
-    look("exact")
+    yield from look_after(0.5, "exact")
     assert facets() > few
     yield from key("ctrl+z")
     assert facets() == few and medial_objects()[0]["ma_draft"]
@@ -311,15 +317,13 @@ def scene_sliders_with_escape():
     """Simplify runs over what can go; of a large result it acts in the thread, and Escape leaves the old one."""
     monkey()
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
+    yield from computed()
     yield patience(1.0)
     show_colours()
     panel, name = bpy.context.scene.medial_axis, "Suzanne Medial Axis"
     whole = facets()
     yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
-    yield patience(0.7)
-    look("dragged")
+    yield from look_after(0.7, "dragged")
     assert 0.0 < panel.simplify_share < 100.0, f"the slider was missed: {panel.simplify_share}"
     assert bpy.data.objects[name]["ma_simplify"] == panel.simplify > 0.0
     assert facets() < whole
@@ -330,8 +334,7 @@ def scene_sliders_with_escape():
     later.SAMPLES = 0  # every result is large
     yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
     yield no_update
-    yield patience(1.0)
-    look("dragged-in-the-thread")
+    yield from look_after(1.0, "dragged-in-the-thread")
     panel = bpy.context.scene.medial_axis
     dragged = facets()
     assert dragged < whole and bpy.data.objects[name]["ma_simplify"] == panel.simplify
@@ -347,16 +350,14 @@ def scene_sliders_with_escape():
     with held(addon("core.axis.compute"), "extract"):
         bpy.context.scene.medial_axis.erode_share = 50.0
         yield job_exists
-        yield 0.5
-        look("in-the-thread")
+        yield from look_after(0.5, "in-the-thread")
         yield from key("Escape")
     yield no_update
     assert facets() == whole
     assert "cancelled" in bpy.context.scene.medial_axis.note
     bpy.context.scene.medial_axis.form = "CURVE"
     yield no_update
-    yield patience(1.0)
-    look("curve")
+    yield from look_after(1.0, "curve")
     assert facets() == 0
 
 
@@ -371,31 +372,25 @@ def scene_steady_panels():
     with held(addon("core.axis.compute"), "extract"):
         yield from click(*at(COMPUTE))
         yield job_exists
-        yield patience(1.0)
-        look("computing")
+        yield from look_after(1.0, "computing")
         yield from key("Escape")
         yield no_job
-    yield patience(1.0)
-    look("cancelled")
+    yield from look_after(1.0, "cancelled")
     assert_same_below(FORM, SKELETON_END, "before", "computing")
     assert_same_below(FORM, SKELETON_END, "before", "cancelled")
     yield from fold(SKELETON)
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield patience(1.0)
-    look("result")
+    yield from computed()
+    yield from look_after(1.0, "result")
     yield from fold(RESULT)
     yield from fold(SETTINGS_OF_RESULT)
     look("settings")
     yield from key("F3")
     xdotool("type", "thick")
-    yield patience(1.0)
-    look("found")
+    yield from look_after(1.0, "found")
     yield from key("Escape")
     with in_viewport():
         bpy.ops.wm.call_menu(name="VIEW3D_MT_medial_axis")
-    yield patience(1.0)
-    look("menu")
+    yield from look_after(1.0, "menu")
     yield from key("Escape")
 
 
@@ -404,11 +399,9 @@ def scene_panels_in_place():
     cube, light = bpy.data.objects["Cube"], bpy.data.objects["Light"]
     select(cube)
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
+    yield from computed()
     yield from point(viewport().x + 200, 300)  # away from the sidebar, where it would light a row
-    yield patience(1.0)
-    look("result")
+    yield from look_after(1.0, "result")
     show_colours()
     draw_once()
     look("colours")
@@ -416,8 +409,7 @@ def scene_panels_in_place():
     assert_same_below(BELOW_LEGEND, BOTTOM, "result", "colours")
     for thing in (light, cube):
         select(thing)
-        yield patience(2.0)
-        look(thing.name)
+        yield from look_after(2.0, thing.name)
     assert_same_below(FORM, BOTTOM, "colours", "Cube")
 
 
@@ -448,10 +440,8 @@ def scene_auto_update():
     bpy.context.scene.medial_axis.sampling = "SURFACE"
     bpy.context.scene.medial_axis.samples = 2_000
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield patience(1.0)
-    look("offered")  # the panel Result is open after the first computation
+    yield from computed()
+    yield from look_after(1.0, "offered")  # the panel Result is open after the first computation
     yield from click(*at(AUTO_UPDATE))
     assert live_result().medial_axis_auto_update, "the switch was missed"
     for part in (
@@ -490,8 +480,7 @@ def edit_mode_waits():
     yield from key("Tab")
     yield lambda: followed() > 1.5 * first
     yield no_job
-    yield patience(0.7)
-    look("edited")
+    yield from look_after(0.7, "edited")
     assert not changed_since()
     for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
         yield from key(stroke)
@@ -512,15 +501,13 @@ def undo_is_followed():
         assert bpy.context.object.scale.x == 1.0, "one stroke takes back one step"
         yield lambda: abs(followed() - first) < 1e-3
         yield no_job
-        yield 1.0
-        look("undone")
+        yield from look_after(1.0, "undone")
         yield from key("ctrl+shift+z")
         assert bpy.context.object.scale.x == 2.0, "redo must know the step after an update"
         yield lambda: followed() > 1.5 * first
         yield no_job
     assert len(bpy.data.objects) == things and not changed_since()
-    yield 1.0
-    look("redone")
+    yield from look_after(1.0, "redone")
 
 
 def coarse_comes_first():
@@ -540,8 +527,7 @@ def escape_stops_it():
     with held(addon("core.axis.compute"), "extract"):
         bpy.context.object.scale.y = 3.0
         yield job_exists
-        yield 0.5
-        look("in-the-thread")
+        yield from look_after(0.5, "in-the-thread")
         yield from key("Escape")
         yield no_job
     yield from stays_without_job(2.0)
@@ -588,8 +574,7 @@ def deleted_source_ends_it():
     yield 2.0
     assert job() is None and not bpy.context.scene.medial_axis.note
     assert addon("ui.axis.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
-    yield 0.5
-    look("deleted")
+    yield from look_after(0.5, "deleted")
 
 
 def live_result():
@@ -657,33 +642,29 @@ def scan_file():
 def scene_scan():
     """File > Import of a raw scan, one click, a clean inner axis; another click, its surface."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         assert bpy.ops.import_mesh.points_xyz(filepath=str(scan_file())) == {"FINISHED"}
     source = bpy.context.view_layer.objects.active
     assert len(source.data.vertices) > 1000 and len(source.data.polygons) == 0
     frame_selected()
     yield from open_tab()
     look("imported")
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield 0.5
-    look("computed")
+    yield from computed()
+    yield from look_after(0.5, "computed")
     (result,) = medial_objects()
     assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
     assert set(attribute(result.data, "ma_side")) == {1}
     select(source)
     yield from click(*at(RECONSTRUCT))
     yield surface_exists
-    yield 1.5
-    look("reconstructed")
+    yield from look_after(1.5, "reconstructed")
     (surface,) = surfaces()
     assert len(surface.data.vertices) > 0.99 * (surface["ma_points"] - surface["ma_duplicates"])
     yield from key("ctrl+z")
     assert surfaces() == [] and len(medial_objects()) == 1, "undo must remove the surface alone"
     yield from key("ctrl+shift+z")
     assert len(surfaces()) == 1, "redo must bring the surface back"
-    yield 1.0
-    look("redone")
+    yield from look_after(1.0, "redone")
 
 
 def data(name):
@@ -735,26 +716,22 @@ def scene_first_glance():
     shading = viewport().spaces.active.shading
     for name, make in MODELS.items():
         bpy.data.batch_remove(bpy.data.objects)
-        with bpy.context.temp_override(window=window(), area=viewport()):
+        with in_viewport():
             source = make()
         if source is None:
             continue
         select(source)
         frame_selected()
-        yield 0.7
-        look(f"{name}-1-before")
+        yield from look_after(0.7, f"{name}-1-before")
         kept = shading.type, shading.color_type
-        yield from click(*at(COMPUTE))
-        yield result_exists
-        yield patience(1.0)
-        look(f"{name}-2-computed")
+        yield from computed()
+        yield from look_after(1.0, f"{name}-2-computed")
         (result,) = medial_objects()
         assert bpy.context.selected_objects == [source] == [bpy.context.object]
         assert (shading.type, shading.color_type) == kept, "nobody pressed Show Colours"
         assert result.parent == source and "ma_color" in result.data.color_attributes
         show_colours()
-        yield patience(0.7)
-        look(f"{name}-3-colours")
+        yield from look_after(0.7, f"{name}-3-colours")
         assert (shading.type, shading.color_type) == ("SOLID", "VERTEX")
         show_colours()
         assert (shading.type, shading.color_type) == kept
@@ -774,53 +751,41 @@ def scene_tutorial():
     source.modifiers["Subdivision"].levels = 2
     turn_to_the_front()
     yield from open_tab()
-    yield 0.5
-    look("01")  # where the panel is
+    yield from look_after(0.5, "01")  # where the panel is
     bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences.guided = True
     yield 0.5
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield patience(1.5)
-    look("02")  # one click
+    yield from computed()
+    yield from look_after(1.5, "02")  # one click
     show_colours()
-    yield patience(0.7)
-    look("03")
+    yield from look_after(0.7, "03")
     source.hide_set(True)
-    yield patience(0.7)
-    look("04")
+    yield from look_after(0.7, "04")
     source.hide_set(False)
     select(source)
     panel.simplify = 4.0
-    yield patience(1.5)
-    look("05")
+    yield from look_after(1.5, "05")
     panel.form = "CURVE"
-    yield patience(1.5)
-    look("06")
+    yield from look_after(1.5, "06")
     source.rotation_euler.z += 0.8
     source.location.x += 0.6
-    yield patience(1.5)
-    look("07")  # it follows
+    yield from look_after(1.5, "07")  # it follows
     panel.form, panel.simplify = "CLEAN", 0.0
     panel.side = "OUTER"
     yield from click(*at(COMPUTE))
     yield no_job
-    yield patience(1.5)
-    look("08")
+    yield from look_after(1.5, "08")
     panel.side = "AUTOMATIC"
     bpy.data.batch_remove([*medial_objects(), source])
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.mesh.primitive_torus_add(major_segments=192, minor_segments=64, minor_radius=0.35)
     torus = bpy.context.object
     torus.data.transform(uneven())
     yield 0.7
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         assert bpy.ops.object.medial_axis_sampling_report() == {"FINISHED"}
-    yield patience(1.5)
-    look("09")
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield patience(1.5)
-    look("10")
+    yield from look_after(1.5, "09")
+    yield from computed()
+    yield from look_after(1.5, "10")
 
 
 def uneven():
@@ -835,15 +800,13 @@ def turn_to_the_front():
 
 
 def scene_sampling():
-    """One click on the cube that Blender starts with; another shows how densely it was sampled."""
+    """One click on the cube that Blender starts with; another shows how densely it was sampled; H, and one more."""
     cube = bpy.data.objects["Cube"]
     select(cube)
     yield from open_tab()
     look("panel")
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield 0.5
-    look("computed")
+    yield from computed()
+    yield from look_after(0.5, "computed")
     (result,) = medial_objects()
     assert "samples of the surface: the vertices" in result["ma_sampled"]
     assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
@@ -856,12 +819,18 @@ def scene_sampling():
     yield patience(1.0)
     xdotool("key", "Return")
     yield report_exists
-    yield 2.0
-    look("reported")
+    yield from look_after(2.0, "reported")
     (report,) = reports()
     assert len(report.data.vertices) == result["ma_points"], "it is the same analysis"
     yield from key("ctrl+z")
     assert reports() == [] and len(medial_objects()) == 1, "undo must remove the report alone"
+    select(bpy.data.objects["Cube"])
+    yield from key("h")
+    assert bpy.context.selected_objects == [] and medial_objects()[0].visible_get()
+    medial_objects()[0]["ma_seconds"] = -1.0
+    yield from pressed(COMPUTE, lambda: medial_objects()[0]["ma_seconds"] > 0.0)
+    look("hidden-by-h")
+    assert not bpy.data.objects["Cube"].visible_get(), "it is read and stays hidden"
 
 
 def branches():
@@ -888,11 +857,9 @@ def scene_what_comes_after():
     yield from open_tab()
     yield from fold(SKELETON)
     look("1-skeleton-panel")
-    yield from click(*at(EXTRACT_SKELETON))
-    yield from until(lambda: "Branches Skeleton" in bpy.data.objects)
+    yield from pressed(EXTRACT_SKELETON, lambda: "Branches Skeleton" in bpy.data.objects)
     look("2-skeleton")
-    yield from click(*at(MAKE_ARMATURE))
-    yield from until(lambda: "Branches Armature" in bpy.data.objects)
+    yield from pressed(MAKE_ARMATURE, lambda: "Branches Armature" in bpy.data.objects)
     look("3-armature")
     assert len(bpy.data.armatures["Branches Armature"].bones) >= 3
     assert bpy.context.object == source, "the source stays what the panel speaks of"
@@ -901,27 +868,23 @@ def scene_what_comes_after():
     bpy.context.scene.medial_axis_thickness.limit = 0.45
     yield from fold(THICKNESS)
     look("4-thickness-panel")
-    yield from click(*at(MEASURE_THICKNESS))
-    yield from until(
-        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None
+    yield from pressed(
+        MEASURE_THICKNESS,
+        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
     )
-    yield patience(1.0)
-    look("5-thickness-in-colours")
+    yield from look_after(1.0, "5-thickness-in-colours")
     assert addon("ui.base.show").shows_colours(viewport().spaces.active), "they are switched on"
-    yield from click(*at(THICKEN))
-    yield from until(lambda: "Medial Axis Thicken" in source.modifiers)
+    yield from pressed(THICKEN, lambda: "Medial Axis Thicken" in source.modifiers)
     look("6-thicker")
     assert source["ma_thickness_share"] == 0.0, "it is measured again"
     show_colours()
     yield from fold(THICKNESS)
 
-    yield from click(*at(COMPUTE))
-    yield from until(medial_objects)
+    yield from pressed(COMPUTE, medial_objects)
     yield from fold(RESULT)
     yield from fold(REBUILD)
     look("7-rebuild-panel")
-    yield from click(*at(REBUILD_SOLID))
-    yield from until(lambda: "Branches Medial Axis Rebuilt" in bpy.data.objects)
+    yield from pressed(REBUILD_SOLID, lambda: "Branches Medial Axis Rebuilt" in bpy.data.objects)
     look("8-rebuilt")
     solid, axis = bpy.context.object, bpy.data.objects["Branches Medial Axis"]
     assert solid.name == "Branches Medial Axis Rebuilt" and not source.visible_get()
@@ -931,8 +894,7 @@ def scene_what_comes_after():
     select(source)
     with bpy.context.temp_override(window=window(), area=viewport(), object=source):
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
-    yield patience(1.5)
-    look("9-nodes")
+    yield from look_after(1.5, "9-nodes")
 
 
 def scene_pose_a_body():
@@ -949,8 +911,7 @@ def scene_pose_a_body():
         assert made == {"FINISHED"}
         look_at_it_from((1.0, -1.6, 0.5))
         frame_selected()
-        yield patience(1.5)
-        look(f"{bind.lower()}-1-at-rest")
+        yield from look_after(1.5, f"{bind.lower()}-1-at-rest")
         thing = bpy.data.objects[f"{bind.title()} Armature"]
         select(thing)
         with in_viewport():
@@ -1025,18 +986,16 @@ def assert_left_side_moved(source):
 def scene_hollow():
     """A ring with a wall and a drain hole, by the button of the panel and Adjust Last Operation; undo takes it off."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.mesh.primitive_torus_add(major_radius=1.2, minor_radius=0.6)
     bpy.ops.ed.undo_push(message="Scene is set")
     frame_selected()
     yield from measured(limit=0.2)
     look("1-measured")
-    yield from click(*at(HOLLOW))
-    yield from until(lambda: "Torus Hollow" in bpy.data.objects)
+    yield from pressed(HOLLOW, lambda: "Torus Hollow" in bpy.data.objects)
     show_colours()
     viewport().spaces.active.shading.show_xray = True
-    yield patience(1.0)
-    look("2-hollow")
+    yield from look_after(1.0, "2-hollow")
     solid, within = (
         0.6 * np.cos(np.pi / 12),
         0.6 * np.cos(np.pi / 12) - 0.2,
@@ -1044,8 +1003,7 @@ def scene_hollow():
     left = volume_of(bpy.data.objects["Torus Hollow"]) / volume_of(bpy.data.objects["Torus"])
     assert abs(left - (1 - (within / solid) ** 2)) < 0.02, left
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
-    yield 1.0
-    look("3-adjust")
+    yield from look_after(1.0, "3-adjust")
     yield from typed_into(DRAIN, "0.3")
     yield from until(lambda: "Torus Hollow Drain" in bpy.data.objects)
     look("4-drained")
@@ -1065,16 +1023,13 @@ def scene_unsolidify():
     profile_t()
     yield from measured(limit=0.05)
     look("1-measured")
-    yield from click(*at(UNSOLIDIFY))
-    yield from until(lambda: "T Mid-Surface" in bpy.data.objects)
+    yield from pressed(UNSOLIDIFY, lambda: "T Mid-Surface" in bpy.data.objects)
     sheets = bpy.data.objects["T Mid-Surface"]
     assert set(attribute(sheets.data, "ma_part")) == {0, 1, 2}
-    yield patience(1.0)
-    look("2-sheets")
+    yield from look_after(1.0, "2-sheets")
     modifier = sheets.modifiers["Medial Axis Thickness"]
     modifier.show_viewport = True
-    yield patience(1.0)
-    look("3-solid-again")
+    yield from look_after(1.0, "3-solid-again")
     yield from key("ctrl+z")
     yield from until(lambda: "T Mid-Surface" not in bpy.data.objects)
     assert "T" in bpy.data.objects
@@ -1089,8 +1044,7 @@ def scene_unsolidify():
         )
     )
     look("4-thin-at-one-end")
-    yield from click(*at(DIVIDE))
-    yield from until(lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
+    yield from pressed(DIVIDE, lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
     look("5-divided-and-thicker")
     thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness.thickness_object")
     assert len(thing.data.polygons) > 300 and of.carrier_of(thing)[of.SHARE] < 0.02
@@ -1128,9 +1082,9 @@ def measured(limit):
     bpy.context.scene.medial_axis_thickness.limit = limit
     yield from open_tab()
     yield from fold(THICKNESS)
-    yield from click(*at(MEASURE_THICKNESS))
-    yield from until(
-        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None
+    yield from pressed(
+        MEASURE_THICKNESS,
+        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
     )
     yield patience(1.0)
 
@@ -1163,6 +1117,12 @@ def until(condition):
     done.patience = 30.0
     yield done
     yield patience(1.0)
+
+
+def pressed(button, condition):
+    """Click a button of the panel and wait for its work."""
+    yield from click(*at(button))
+    yield from until(condition)
 
 
 def fold(header):
@@ -1215,7 +1175,7 @@ def scene_cancel_with_escape():
     yield from start_long_run()
     yield from blender_goes_on(20)
     look("running")
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
     area = viewport()
     yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
@@ -1223,8 +1183,7 @@ def scene_cancel_with_escape():
     xdotool("key", "Escape")
     yield no_job
     assert time.monotonic() - asked < patience(3.0)  # far less than the run would take
-    yield 0.5
-    look("cancelled")
+    yield from look_after(0.5, "cancelled")
     nothing_is_left()
     assert "cancelled" in bpy.context.scene.medial_axis.note
 
@@ -1245,8 +1204,7 @@ def scene_reduce_with_escape():
     start_reducing()
     yield no_job
     assert len(bpy.data.objects) == before + 1
-    yield patience(1.0)
-    look("reduced")
+    yield from look_after(1.0, "reduced")
 
 
 def start_reducing():
@@ -1274,8 +1232,7 @@ def scene_source_deleted():
     yield 0.3
     nothing_is_left()
     assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
-    yield 1.0
-    look("deleted")
+    yield from look_after(1.0, "deleted")
 
 
 def scene_undo_while_running():
@@ -1316,8 +1273,7 @@ def scene_undo_storm():
     yield from key("ctrl+shift+z")
     yield result_exists
     assert [len(thing.data.polygons) for thing in medial_objects()] == [before]
-    yield 1.0
-    look("redone")
+    yield from look_after(1.0, "redone")
     assert threads() == []
 
 
@@ -1347,8 +1303,7 @@ def scene_file_opened():
         select(bpy.data.objects["Cloud"])
     yield from start_long_run()
     yield result_exists
-    yield 0.5
-    look("computed")
+    yield from look_after(0.5, "computed")
     assert [thing.name for thing in medial_objects()] == ["Cloud Medial Axis"]
 
 
@@ -1365,10 +1320,8 @@ def scene_disabled_while_running():
     bpy.data.objects.remove(bpy.data.objects["Cloud"])
     bpy.ops.mesh.primitive_cube_add()
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield 0.5
-    look("computed")
+    yield from computed()
+    yield from look_after(0.5, "computed")
 
 
 def scene_window_closed_while_running():
@@ -1391,8 +1344,7 @@ def scene_window_closed_while_running():
     bpy.data.objects.remove(bpy.data.objects["Cloud"])
     bpy.ops.mesh.primitive_cube_add()
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
+    yield from computed()
 
 
 def scene_file_loaded():
@@ -1405,20 +1357,17 @@ def scene_file_loaded():
     nothing_is_left()
     monkey()
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
+    yield from computed()
     look("computed after loading")
 
 
 def scene_edit_mode():
     monkey()
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.object.mode_set(mode="EDIT")
     yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield result_exists
-    yield 0.5
-    look("computed")
+    yield from computed()
+    yield from look_after(0.5, "computed")
     assert bpy.context.mode == "EDIT_MESH" and bpy.context.object.name == "Suzanne"
     yield from key("ctrl+z")
     look("undone")
@@ -1446,8 +1395,7 @@ def scene_sequence():
     yield from open_tab()
     start_sequence(folder)
     yield played
-    yield 0.5
-    look("computed")
+    yield from look_after(0.5, "computed")
     assert len(list(folder.glob("Suzanne_000?.npz"))) == 3 == len(played())
     assert bpy.context.scene.frame_current == 1 and no_job()
     (shown,) = (thing for thing in played() if thing.visible_get())
@@ -1460,8 +1408,7 @@ def scene_sequence():
         bpy.context.scene.frame_set(frame)
         shown = [thing["ma_frame"] for thing in played() if thing.visible_get()]
         assert shown == [frame]
-    yield 0.5
-    look("played")
+    yield from look_after(0.5, "played")
 
 
 def scene_cancel_sequence_with_escape():
@@ -1489,7 +1436,7 @@ def scene_quit_while_running():
 def scene_plain_words():
     """Flat text is told in one line; the question mark beside it has the whole sentence."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.object.text_add()
     yield from open_tab()
     yield from click(*at(COMPUTE))
@@ -1499,8 +1446,7 @@ def scene_plain_words():
     look("told")
     for _ in range(2):  # Blender's own message takes the first one
         yield from click(*at(MORE))
-    yield patience(1.0)
-    look("more")
+    yield from look_after(1.0, "more")
     yield from point(viewport().x + 200, 300)
     bpy.context.scene.medial_axis.note = ""
     yield patience(1.0)
@@ -1516,11 +1462,10 @@ def scene_german():
     viewport().spaces.active.show_region_ui = True
     yield 1.0
     yield from click(*at(GERMAN_TAB))
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         bpy.ops.object.medial_axis("INVOKE_DEFAULT")
     yield result_exists
-    yield 1.0
-    look("sidebar")
+    yield from look_after(1.0, "sidebar")
     area = viewport()
     area.type = "PREFERENCES"
     bpy.context.preferences.active_section = "ADDONS"
@@ -1528,8 +1473,7 @@ def scene_german():
     yield 1.5  # the list knows its add-ons when it was drawn
     bpy.ops.preferences.addon_expand(module=os.environ["MEDIAL_AXIS_MODULE"])
     assert bpy.ops.wm.medial_axis_self_test() == {"FINISHED"}
-    yield 1.5
-    look("preferences")
+    yield from look_after(1.5, "preferences")
 
 
 def scene_missing_module():
@@ -1539,7 +1483,7 @@ def scene_missing_module():
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
     yield from click(*at((102, 128)))  # the button lies below the message; it is grey
     yield 0.5
-    with bpy.context.temp_override(window=window(), area=viewport()):
+    with in_viewport():
         assert not bpy.ops.object.medial_axis.poll()
     assert medial_objects() == []
 
