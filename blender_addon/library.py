@@ -13,10 +13,12 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from .core.arrays import Floats, Ints
 from .core.axis import compute as axis
 from .core.axis import each_part
 from .core.axis.compute import Computation
@@ -61,9 +63,6 @@ from .core.settings import (
 )
 from .core.shape.own_frame import in_own_frame, own_origin
 from .core.shape.shape import Shape
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "BallCover",
@@ -421,12 +420,12 @@ def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | 
     return Shape(found, faces, directions)
 
 
-def _numbers(rows: ArrayLike, name: str) -> NDArray[np.float64]:
+def _numbers(rows: ArrayLike, name: str) -> Floats:
     """Return an (n, 3) array of float64, a copy only where that is necessary."""
     return np.ascontiguousarray(_rows(rows, name, "fiu", "numbers"), np.float64)
 
 
-def _corners(rows: ArrayLike) -> NDArray[np.int32]:
+def _corners(rows: ArrayLike) -> Ints:
     """Return an (m, 3) array of int32, a copy only where that is necessary."""
     found = _rows(rows, "triangles", "iu", "integers")
     limits = np.iinfo(np.int32)

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ..core.arrays import Floats, Ints
 from ..core.axis.colours import radius_range
-from ..core.cover.ball_cover import Balls
+from ..core.cover.ball_cover import BallCover, Balls
 from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
@@ -25,11 +26,6 @@ from .mesh.write_mesh import new_mesh
 from .nodes.groups import add_coloured_balls, is_group
 from .objects.output_object import Product, check_mode, place, remember
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..core.cover.ball_cover import BallCover
-
 MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
 OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"
 _WRITTEN = "ma_balls_written"  # identifies the balls to which the figures belong
@@ -39,10 +35,10 @@ _WRITTEN = "ma_balls_written"  # identifies the balls to which the figures belon
 class _Vertices:
     """Polygons of a mesh that has none, with a radius at each vertex."""
 
-    vertices: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
+    vertices: Floats
+    radius: Floats
+    face_offsets: Ints
+    face_vertices: Ints
 
 
 BALLS = Product(" Balls", (MODE,), material=radius_material)
@@ -111,9 +107,7 @@ def read_balls(thing: bpy.types.Object) -> Balls:
     return Balls(centres, radii, CoverMode[thing[MODE]], covered, outside, farthest, edges)
 
 
-def _rows(
-    thing: bpy.types.Object,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
+def _rows(thing: bpy.types.Object) -> tuple[Floats, Floats, Ints]:
     mesh = thing.data
     found = mesh.attributes.get(RADIUS.name)
     if found is None or not len(mesh.vertices):

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.hollow.drain_hole import drain_hole
+from ..core.arrays import Floats
+from ..core.hollow.drain_hole import DrainHole, drain_hole
+from ..core.hollow.hollow import Hollow
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import (
     Product,
@@ -21,12 +22,6 @@ from .objects.output_object import (
     replace_mesh,
     source_of,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..core.hollow.drain_hole import DrainHole
-    from ..core.hollow.hollow import Hollow
 
 WALL, LEAST = "ma_hollow_wall", "ma_hollow_least"
 _DRAIN = "Medial Axis Drain"  # the modifier
@@ -42,7 +37,7 @@ def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
     return thing if source is None or is_gone(source) else source
 
 
-def hole_of(found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool) -> DrainHole:
+def hole_of(found: Hollow, frame: Floats, width: float, at_cursor: bool) -> DrainHole:
     """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
 
     Raises
@@ -58,7 +53,7 @@ def hole_of(found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: 
 
 
 def write_hollow(
-    source: bpy.types.Object, found: Hollow, frame: NDArray[np.float64], hole: DrainHole | None
+    source: bpy.types.Object, found: Hollow, frame: Floats, hole: DrainHole | None
 ) -> bpy.types.Object:
     """Make the hollow solid of a source, or update the existing one; all or nothing.
 

@@ -4,23 +4,19 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
+from ..core.arrays import Floats
 from ..core.axis.colours import radius_range
+from ..core.mid_surface.mid_surface import MidSurface
 from .mesh.attributes import Attribute
 from .mesh.material import THICKNESS, thickness_material
 from .mesh.step_weights import write_steps
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import Product, follow_like, place, remember, source_of
 from .thickness.thickness_object import carrier_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..core.mid_surface.mid_surface import MidSurface
 
 SHEETS, SHARE = "ma_mid_sheets", "ma_mid_share"
 _NAME = "Medial Axis Thickness"  # of the modifier and of the vertex group
@@ -45,7 +41,7 @@ def check_mid_surface_writable(source: bpy.types.Object) -> None:
 
 
 def write_mid_surface(
-    source: bpy.types.Object, found: MidSurface, frame: NDArray[np.float64]
+    source: bpy.types.Object, found: MidSurface, frame: Floats
 ) -> bpy.types.Object:
     """Make the middle surface of a source, or update the existing one; all or nothing.
 
@@ -75,7 +71,7 @@ def write_mid_surface(
     return thing
 
 
-def _write_thick(source: bpy.types.Object, found: MidSurface, frame: NDArray[np.float64]) -> None:
+def _write_thick(source: bpy.types.Object, found: MidSurface, frame: Floats) -> None:
     """Make or update the object of the faces that no sheet stands for, or remove it where there are none."""
     thick = found.thick
     if thick is None or not len(thick.triangles):
@@ -108,7 +104,7 @@ def _show_in_front(thing: bpy.types.Object, source: bpy.types.Object) -> None:
     thing.show_in_front = True
 
 
-def _solidify(thing: bpy.types.Object, lengths: NDArray[np.float64]) -> None:
+def _solidify(thing: bpy.types.Object, lengths: Floats) -> None:
     """Add or update the modifier, switched off in the view: at first the sheets are seen."""
     modifier = thing.modifiers.get(_NAME)
     if modifier is None or modifier.type != "SOLIDIFY":

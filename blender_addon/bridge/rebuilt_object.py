@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -18,6 +17,7 @@ from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.errors import InvalidInputError
 from ..core.rebuild.solid_difference import SolidDifference, solid_difference
 from ..core.settings import Side
+from ..core.shape.shape import Shape
 from ..core.small_matrices import inverse, times
 from .axis.axis_object import radius_range, settings_of
 from .axis.reduced_object import is_reduced
@@ -27,9 +27,6 @@ from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
 from .objects.output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
 from .objects.read_object import read_object
-
-if TYPE_CHECKING:
-    from ..core.shape.shape import Shape
 
 REBUILT = "ma_rebuilt"  # marks the object
 MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"

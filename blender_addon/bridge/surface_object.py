@@ -4,17 +4,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
+from ..core.rebuild.reconstruction import Reconstruction
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import Product, place, remember
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from ..core.rebuild.reconstruction import Reconstruction
 
 OFF_SURFACE = "ma_off_surface"
 NONMANIFOLD_EDGES = "ma_nonmanifold_edges"

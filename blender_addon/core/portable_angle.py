@@ -6,13 +6,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .arrays import Floats
 
 _HALVINGS = 3  # then the tangent of an angle is below 0.1
 _TERMS = 9  # of Gregory's series there, whose next one is below 1e-20
 
 
-def angle_of(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+def angle_of(x: Floats, y: Floats) -> Floats:
     """Return the angles of (x, y) from the X axis, in radians from -pi to pi; 0 where both are 0.
 
     Parameters

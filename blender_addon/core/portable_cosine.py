@@ -7,9 +7,10 @@ import math
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-Angles = TypeVar("Angles", float, NDArray[np.float64])
+from .arrays import Floats
+
+Angles = TypeVar("Angles", float, Floats)
 _TERMS = 14  # of Taylor's series at half a turn, whose next one is below 3e-16
 
 

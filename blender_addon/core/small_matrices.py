@@ -10,17 +10,15 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from .arrays import Floats
 
 _MOST_SWEEPS = 40  # they converge in fewer than ten
 
 
-def dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def dot(a: Floats, b: Floats) -> Floats:
     """Return the products along the last axis, (...)."""
     if a.shape[-1] == 3 == b.shape[-1]:  # five times as fast as a sum over a short axis
         x, y, z = (a[..., k] * b[..., k] for k in range(3))
@@ -28,37 +26,35 @@ def dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray((a * b).sum(axis=-1))
 
 
-def length_of(vector: NDArray[np.float64]) -> float:
+def length_of(vector: Floats) -> float:
     """Return the length of one vector; tables count as one, too."""
     numbers = vector.ravel()
     return math.sqrt(float(dot(numbers, numbers)))
 
 
-def times(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def times(points: Floats, matrix: Floats) -> Floats:
     """Return each of the points, (..., 3), moved by a matrix, (m, 3): `points @ matrix.T`."""
     x, y, z = (points[..., k, None] * matrix[:, k] for k in range(3))
     return np.asarray(x + y + z)
 
 
-def placed(points: NDArray[np.float64], frame: NDArray[np.float64]) -> NDArray[np.float64]:
+def placed(points: Floats, frame: Floats) -> Floats:
     """Return points, (..., 3), in the space to which a transform, (3, 4) or (4, 4), takes them."""
     return times(points, frame[:3, :3]) + frame[:3, 3]
 
 
-def determinant(matrix: NDArray[np.float64]) -> float:
+def determinant(matrix: Floats) -> float:
     """Return the determinant of a (3, 3) matrix."""
     return float(dot(matrix[0], np.cross(matrix[1], matrix[2])))
 
 
-def inverse(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def inverse(matrix: Floats) -> Floats:
     """Return the inverse of a (3, 3) matrix that has one."""
     cofactors = np.cross(matrix[[1, 2, 0]], matrix[[2, 0, 1]])
     return cofactors.T / float(dot(matrix[0], cofactors[0]))
 
 
-def stretches(
-    rows: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def stretches(rows: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the singular values of a matrix, (n, 3), by one-sided Jacobi rotations (Hestenes 1958).
 
     Returns
@@ -81,7 +77,7 @@ def stretches(
     return np.ldexp(size[order], exponent), direction[order], np.ldexp(image[order], exponent)
 
 
-def _turned(image: NDArray[np.float64], direction: NDArray[np.float64]) -> bool:
+def _turned(image: Floats, direction: Floats) -> bool:
     """Make each two of the rows perpendicular, one pair after the other; return whether one was not."""
     turned = False
     for p, q in ((0, 1), (0, 2), (1, 2)):
@@ -102,9 +98,7 @@ def _turned(image: NDArray[np.float64], direction: NDArray[np.float64]) -> bool:
     return turned
 
 
-def shortest_solutions(
-    squares: NDArray[np.float64], wanted: NDArray[np.float64], cutoff: float
-) -> NDArray[np.float64]:
+def shortest_solutions(squares: Floats, wanted: Floats, cutoff: float) -> Floats:
     """Return the shortest x that each matrix turns into the wanted vector, (n, 3), for many symmetric matrices.
 
     Parameters
@@ -125,9 +119,7 @@ def shortest_solutions(
     return dot(directions.swapaxes(1, 2), along[:, None])
 
 
-def _turned_all(
-    matrices: NDArray[np.float64], directions: NDArray[np.float64], p: int, q: int
-) -> bool:
+def _turned_all(matrices: Floats, directions: Floats, p: int, q: int) -> bool:
     """Make entry (p, q) of each symmetric matrix zero by a rotation (Jacobi); return whether one was not."""
     both, first, second = matrices[:, p, q], matrices[:, p, p], matrices[:, q, q]
     small = np.abs(both) <= sys.float_info.epsilon * (np.abs(first) + np.abs(second))

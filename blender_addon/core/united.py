@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from .arrays import Longs
 
 
-def united(count: int, pairs: NDArray[np.integer]) -> NDArray[np.int64]:
+def united(count: int, pairs: NDArray[np.integer]) -> Longs:
     """Return the smallest item that (p, 2) pairs connect each item with, (count,), maybe by way of others.
 
     Each item that stands for others goes to a smaller one, if a pair leads there; pairs shrink to those between such

@@ -18,12 +18,15 @@ from ..core.machine import native
 # In the order of registration, which is that of the panels.
 # fmt: off
 _MODULES = (
-    "translation", "apply_later", "properties", "thickness_properties", "self_test_operator", "asset_library",
-    "plain_words", "preferences", "operators", "auto_update", "skeleton_operators", "thickness_limits",
-    "thickness_operators", "thicken", "hollow", "export_axis", "export_thickness", "import_points", "inward_faces",
-    "presets", "legend", "show", "guide", "panels", "parts", "skeleton_panel", "thickness_panel", "rebuild", "balls",
-    "settings_panels", "compute_sequence", "reduce", "mid_surface", "convert_to_curve", "simplify_to_gap",
-    "node_groups", "menus", "manual", "current_job",
+    "base.translation", "settings.apply_later", "settings.properties", "thickness.thickness_properties",
+    "settings.self_test_operator", "settings.asset_library", "base.plain_words", "settings.preferences",
+    "axis.operators", "axis.auto_update", "skeleton.skeleton_operators", "thickness.thickness_limits",
+    "thickness.thickness_operators", "thickness.thicken", "hollow", "axis.export_axis",
+    "thickness.export_thickness", "axis.import_points", "axis.inward_faces", "settings.presets", "base.legend",
+    "base.show", "settings.guide", "panels.panels", "axis.parts", "skeleton.skeleton_panel",
+    "thickness.thickness_panel", "rebuild", "balls", "panels.settings_panels", "axis.compute_sequence", "reduce",
+    "mid_surface", "axis.convert_to_curve", "axis.simplify_to_gap", "axis.node_groups", "panels.menus",
+    "base.manual", "base.current_job",
 )
 # fmt: on
 _commands: list[object] = []  # of Blender's command line

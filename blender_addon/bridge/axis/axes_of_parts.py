@@ -5,19 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
+from ...core.axis.compute import Computation
 from ...core.settings import Look
 from ..objects.output_object import OF_PART, SOURCE, source_of
 from .axis_object import RESULT, SUFFIX, write_result
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from ...core.axis.compute import Computation
-    from .shown_axis import ShownAxis
+from .shown_axis import ShownAxis
 
 
 def write_result_of_part(

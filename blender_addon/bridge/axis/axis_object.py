@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
 
 from ...core.axis.colours import radius_range as colours_of_radii
+from ...core.axis.compute import Computation
+from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.verdict import verdict
 from ...core.options import Choice
 from ...core.settings import (
@@ -40,10 +42,6 @@ from ..objects.output_object import (
 from .shown_axis import ShownAxis, box_of, shown_axis
 from .slider_ranges import remember_ranges
 from .structure_object import remember_structure
-
-if TYPE_CHECKING:
-    from ...core.axis.compute import Computation
-    from ...core.axis.medial_axis import MedialAxis
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"

@@ -3,19 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+import bpy
 import numpy as np
 
+from ...core.arrays import Floats
 from ...core.machine.native import own_errors
+from ...core.samples.sampling_report import SamplingReport
 from ..mesh.attributes import as_float32, set_attribute
 from ..mesh.step_weights import write_steps
-
-if TYPE_CHECKING:
-    import bpy
-    from numpy.typing import NDArray
-
-    from ...core.samples.sampling_report import SamplingReport
 
 FEATURE_SIZE = "ma_feature_size"  # of the attribute and of the vertex group
 # Weights go from 1 at this share of the smallest sizes to 0 at the same share of the largest.
@@ -30,7 +25,7 @@ def write_feature_size(source: bpy.types.Object, found: SamplingReport) -> None:
     write_steps(source, FEATURE_SIZE, detail_of(sizes))
 
 
-def detail_of(sizes: NDArray[np.float64]) -> NDArray[np.float64]:
+def detail_of(sizes: Floats) -> Floats:
     """(n,) 1 where the feature size is smallest, 0 where it is largest, even steps of its logarithm in between; 0 where
     it is not known."""
     known = np.isfinite(sizes) & (sizes > 0.0)

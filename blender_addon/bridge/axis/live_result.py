@@ -4,22 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bpy
+from mathutils import Matrix
 
 from ...core.errors import MedialAxisError
+from ...core.settings import Look
+from ...core.shape.shape import Shape
 from ..objects.output_object import SECONDS, follow, is_gone, source_of
 from ..objects.read_object import read_object
 from ..objects.source_state import forget_answer, remember_state, state_of
 from .axis_object import DRAFT, look_of, result_of, write_result
-
-if TYPE_CHECKING:
-    from mathutils import Matrix
-
-    from ...core.settings import Look
-    from ...core.shape.shape import Shape
-    from .shown_axis import Computed
+from .shown_axis import Computed
 
 LIVE = "medial_axis_auto_update"  # a property of every object; off where it was never set
 

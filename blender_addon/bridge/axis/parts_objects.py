@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ... import __version__
+from ...core.arrays import Floats, Ints
+from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
 from ..mesh.attributes import PART, RADIUS, Attribute
@@ -18,11 +19,6 @@ from ..mesh.mesh_arrays import select_faces, selected_faces
 from ..mesh.write_mesh import new_mesh
 from ..objects.output_object import SOURCE, VERSION, is_gone
 from .read_axis import read_axis
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.axis.medial_axis import MedialAxis
 
 NUMBER = "ma_part_number"  # of the part that an object is
 MOST = 1000  # objects
@@ -57,7 +53,7 @@ def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
     return int(np.count_nonzero(_parts(mesh) == number))
 
 
-def _parts(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+def _parts(mesh: bpy.types.Mesh) -> Ints:
     part = np.full(len(mesh.polygons), -1, np.int32)
     found = mesh.attributes.get(PART.name)
     if found is not None and (found.domain, found.data_type) == ("FACE", "INT"):
@@ -69,11 +65,11 @@ def _parts(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
 class _Sheet:
     """The facets of one part as polygons with values."""
 
-    vertices: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
-    radius: NDArray[np.float64]
-    part: NDArray[np.int32]
+    vertices: Floats
+    face_offsets: Ints
+    face_vertices: Ints
+    radius: Floats
+    part: Ints
 
 
 _TABLE: tuple[Attribute, ...] = (RADIUS, PART)

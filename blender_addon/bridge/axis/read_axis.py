@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.arrays import Floats, Ints
 from ...core.axis.medial_axis import LevelValues, MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
@@ -19,9 +20,6 @@ from ..objects.output_object import is_gone
 from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
 from .reduced_object import is_reduced
 from .structure_object import read_structure
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 def find_axis(thing: bpy.types.Object | None) -> bpy.types.Object | None:
@@ -61,7 +59,7 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
     return with_facets_turned(axis, turned) if turned.any() else axis
 
 
-def world_matrix(result: bpy.types.Object) -> NDArray[np.float64]:
+def world_matrix(result: bpy.types.Object) -> Floats:
     """Return where the object lies in the world, (4, 4)."""
     return np.array(result.matrix_world, np.float64)
 
@@ -80,7 +78,7 @@ def _readable_mesh(result: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(mesh)
 
 
-def _edges_alone(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
+def _edges_alone(mesh: bpy.types.Mesh) -> tuple[Ints, NDArray[np.intp]]:
     """Return (w, 2) the ends of the edges without a face, and (w,) which edges these are."""
     alone = np.ones(len(mesh.edges), bool)
     alone[read_corner_edges(mesh)] = False

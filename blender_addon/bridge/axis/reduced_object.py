@@ -4,21 +4,18 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 
 from ... import __version__
 from ...core.axis.colours import radius_range as colours_of_radii
+from ...core.axis.medial_axis import MedialAxis
 from ...core.settings import Side
 from ..mesh.attributes import RADIUS
 from ..mesh.material import RADIUS_MAX, RADIUS_MIN, radius_material
 from ..mesh.write_mesh import new_axis_mesh
 from ..nodes.wires import show_wires
 from ..objects.output_object import SOURCE, VERSION, Product, follow_like, source_of
-
-if TYPE_CHECKING:
-    from ...core.axis.medial_axis import MedialAxis
 
 REDUCED = "ma_reduced"  # the wanted number of vertices; it marks the object
 

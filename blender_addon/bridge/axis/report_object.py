@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils.kdtree import KDTree
+from numpy.typing import NDArray
 
+from ...core.arrays import Floats
 from ...core.errors import InvalidInputError
+from ...core.samples.sampling_report import SamplingReport
 from ..mesh.attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.evaluated_rows import keeps_rows
@@ -28,11 +30,6 @@ from ..objects.output_object import (
     remember,
 )
 from .feature_size import write_feature_size
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.samples.sampling_report import SamplingReport
 
 MEDIAN = "ma_epsilon_median"
 P95 = "ma_epsilon_p95"
@@ -180,7 +177,7 @@ def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
     return as_float32(values)
 
 
-def _nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.intp]:
+def _nearest(points: Floats, others: Floats) -> NDArray[np.intp]:
     """Return the row of the nearest of the others to each point, (n,)."""
     tree = KDTree(len(others))
     for row, other in enumerate(others.tolist()):

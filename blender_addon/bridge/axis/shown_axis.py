@@ -3,26 +3,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.axis.clip import within_box
-from ...core.axis.compute import compute_axis
+from ...core.axis.compute import Computation, compute_axis
 from ...core.axis.crumbs import crumbs_below, without_crumbs
 from ...core.axis.cut import pieces, without_shards, without_small_pieces
+from ...core.axis.medial_axis import MedialAxis
+from ...core.machine.memory_limit import MemoryLimit
+from ...core.machine.progress import Progress
+from ...core.settings import Look, Settings
+from ...core.shape.shape import Shape
 from ..mesh.axis_arrays import AxisArrays, arrays_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ...core.axis.compute import Computation
-    from ...core.axis.medial_axis import MedialAxis
-    from ...core.machine.memory_limit import MemoryLimit
-    from ...core.machine.progress import Progress
-    from ...core.settings import Look, Settings
-    from ...core.shape.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

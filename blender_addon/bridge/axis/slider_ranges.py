@@ -4,16 +4,11 @@ value of Simplify; and what Detail can leave out."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+import bpy
 import numpy as np
 
+from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.slider_range import SliderRange
-
-if TYPE_CHECKING:
-    import bpy
-
-    from ...core.axis.medial_axis import MedialAxis
 
 RANGES = {
     "simplify": "ma_simplify_range",

@@ -4,20 +4,17 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.arrays import Ints
+from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.structure import FIELDS, Structure
 from ...core.axis.structure_table import counts_of
 from ..mesh.attributes import structure_attributes
 from ..mesh.mesh_arrays import read_edges
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.axis.medial_axis import MedialAxis
 
 TABLE = "ma_structure"  # the fields of `Structure` that are about parts, curves and nodes, as JSON
 COUNTS = "ma_structure_counts"  # sheets, seams, rims, creases, junctions, corners
@@ -45,10 +42,7 @@ def counts_on(result: bpy.types.Object) -> dict[str, int]:
 
 
 def read_structure(
-    mesh: bpy.types.Mesh,
-    alone: NDArray[np.intp],
-    result: bpy.types.Object,
-    generators: NDArray[np.int32],
+    mesh: bpy.types.Mesh, alone: NDArray[np.intp], result: bpy.types.Object, generators: Ints
 ) -> Structure | None:
     """The structure of a mesh; None where it has none, or where an artist has changed its elements.
 
@@ -84,7 +78,7 @@ def read_structure(
     return found if _is_whole(found) else None
 
 
-def _column(mesh: bpy.types.Mesh, name: str, domain: str) -> NDArray[np.int32] | None:
+def _column(mesh: bpy.types.Mesh, name: str, domain: str) -> Ints | None:
     found = mesh.attributes.get(name)
     if found is None or (found.domain, found.data_type) != (domain, "INT"):
         return None

@@ -4,19 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.arrays import Floats
+from ...core.axis.medial_axis import LevelValues, MedialAxis
+from ...core.axis.structure import Structure
 from ...core.errors import InvalidInputError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.axis.medial_axis import LevelValues, MedialAxis
-    from ...core.axis.structure import Structure
-    from ...core.samples.sampling_report import SamplingReport
+from ...core.samples.sampling_report import SamplingReport
 
 
 @dataclass(frozen=True)
@@ -62,7 +59,7 @@ class Attribute:
         return np.ascontiguousarray(array, self.dtype).ravel()
 
 
-def as_float32(values: NDArray[np.float64]) -> NDArray[np.float32]:
+def as_float32(values: Floats) -> NDArray[np.float32]:
     """Numbers as Blender holds them; what is too large for it is the largest one, for infinity spoils colours."""
     return np.minimum(values, np.finfo(np.float32).max).astype(np.float32)
 
@@ -175,7 +172,7 @@ def add_normals(attributes: bpy.types.AttributeGroup, normals: NDArray) -> None:
     found.data.foreach_set("vector", np.ascontiguousarray(normals, np.float32).ravel())
 
 
-def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | None:
+def read_normals(attributes: bpy.types.AttributeGroup) -> Floats | None:
     """Return the normals of the points of a mesh or point cloud, (n, 3); None when it has none.
 
     Those of the sheets of a medial axis are none: neither side of a sheet is outside.
@@ -189,7 +186,7 @@ def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | 
     return None
 
 
-def read_vectors(elements: bpy.types.bpy_prop_collection, name: str) -> NDArray[np.float64]:
+def read_vectors(elements: bpy.types.bpy_prop_collection, name: str) -> Floats:
     """Return a vector property of all elements, (n, 3)."""
     values = np.empty(3 * len(elements), np.float32)
     elements.foreach_get(name, values)

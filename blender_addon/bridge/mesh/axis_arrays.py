@@ -7,18 +7,15 @@ They are computed in the thread of a job where there is one, because Blender dra
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.arrays import Ints
 from ...core.axis.directions import curve_tangents, sheet_normals
+from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.axis.medial_axis import MedialAxis
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +35,8 @@ class AxisArrays:
     """
 
     turned: MedialAxis
-    edges: NDArray[np.int32]
-    corner_edges: NDArray[np.int32]
+    edges: Ints
+    corner_edges: Ints
     normals: NDArray[np.float32] | None
     tangents: NDArray[np.float32] | None
 
@@ -58,9 +55,7 @@ def arrays_of(axis: MedialAxis) -> AxisArrays:
     return AxisArrays(turned, edges, corner_edges, normals, tangents)
 
 
-def edges_of(
-    offsets: NDArray[np.int32], corners: NDArray[np.int32], vertices: int
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def edges_of(offsets: Ints, corners: Ints, vertices: int) -> tuple[Ints, Ints]:
     """The edges of polygons, and the edge after each corner, as in `AxisArrays`."""
     with own_errors() as module:
         return module.polygon_edges(offsets, corners, vertices)

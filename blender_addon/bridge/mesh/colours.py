@@ -4,16 +4,12 @@ that they stand for, which an object remembers."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import bpy
+from numpy.typing import NDArray
 
 from ...core.axis.colours import colours, part_colours
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
 COLOUR = "ma_color"
 # Custom properties of a coloured object: the numbers at the first and at the last colour of the scale, and the name of

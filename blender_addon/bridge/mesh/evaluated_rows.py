@@ -7,13 +7,10 @@ nothing. An index that travels through the evaluation as an attribute says which
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ...core.arrays import Ints
 
 _INDEX = "ma_index_in_mesh"
 # Modifiers that move vertices, and leave their number and order.
@@ -47,7 +44,7 @@ _DEFORMING = {
 }
 
 
-def row_of_vertices(source: bpy.types.Object) -> NDArray[np.int32] | None:
+def row_of_vertices(source: bpy.types.Object) -> Ints | None:
     """Return the row of each vertex of a mesh among the evaluated vertices, (v,).
 
     None where a vertex is missing there or is there more than once. The mesh must be writable.
@@ -70,7 +67,7 @@ def only_deforms(source: bpy.types.Object) -> bool:
     return all(m.type in _DEFORMING or not m.show_viewport for m in source.modifiers)
 
 
-def _rows(source: bpy.types.Object, domain: str, count: int) -> NDArray[np.int32] | None:
+def _rows(source: bpy.types.Object, domain: str, count: int) -> Ints | None:
     if only_deforms(source):
         return np.arange(count, dtype=np.int32)
     origin = _origins(source, domain, count)
@@ -81,7 +78,7 @@ def _rows(source: bpy.types.Object, domain: str, count: int) -> NDArray[np.int32
     return rows
 
 
-def _origins(source: bpy.types.Object, domain: str, count: int) -> NDArray[np.int32]:
+def _origins(source: bpy.types.Object, domain: str, count: int) -> Ints:
     """The index in the mesh of each evaluated vertex or face; empty where the modifiers drop the attribute."""
     mesh = source.data
     attribute = mesh.attributes.new(_INDEX, "INT", domain)

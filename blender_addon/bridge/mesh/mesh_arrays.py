@@ -7,25 +7,21 @@ as long. Attributes of corners, from 3.6 or so, are signed; what older names giv
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags, Floats, Ints
 from .attributes import read_vectors
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
+def read_positions(mesh: bpy.types.Mesh) -> Floats:
     """Return the vertices, (n, 3)."""
     if "position" in mesh.attributes:  # from 3.6 or so; then it alone is copied in one go
         return read_vectors(mesh.attributes["position"].data, "vector")
     return read_vectors(mesh.vertices, "co")
 
 
-def read_polygons(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def read_polygons(mesh: bpy.types.Mesh) -> tuple[Ints, Ints]:
     """(m + 1,) where the corners of each polygon begin, and (c,) the vertices of the corners, polygon by polygon."""
     starts, sizes = read_spans(mesh)
     offsets = np.zeros(len(sizes) + 1, np.int32)
@@ -35,7 +31,7 @@ def read_polygons(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.i
     return offsets, read_corners(mesh)[places]
 
 
-def read_spans(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def read_spans(mesh: bpy.types.Mesh) -> tuple[Ints, Ints]:
     """Return (m,) the first corner of each polygon, and (m,) how many it has."""
     starts = _read_unsigned(mesh.polygons, "loop_start")
     if bpy.app.version < (4, 1, 0):
@@ -43,22 +39,22 @@ def read_spans(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int3
     return starts, np.diff(starts, append=np.int32(len(mesh.loops)))
 
 
-def read_corners(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+def read_corners(mesh: bpy.types.Mesh) -> Ints:
     """Return the vertex of each corner, (c,)."""
     return _read_of_corners(mesh, ".corner_vert", "vertex_index")
 
 
-def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+def read_corner_edges(mesh: bpy.types.Mesh) -> Ints:
     """Return the edge that begins at each corner, (c,)."""
     return _read_of_corners(mesh, ".corner_edge", "edge_index")
 
 
-def read_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+def read_edges(mesh: bpy.types.Mesh) -> Ints:
     """Return the ends of each edge, (e, 2)."""
     return _read_unsigned(mesh.edges, "vertices", 2).reshape(-1, 2)
 
 
-def read_loop_triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def read_loop_triangles(mesh: bpy.types.Mesh) -> tuple[Ints, Ints]:
     """Return (t, 3) Blender's own triangles, and (t,) the polygon of each."""
     mesh.calc_loop_triangles()
     triangles = mesh.loop_triangles
@@ -66,7 +62,7 @@ def read_loop_triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArra
     return corners, _read_unsigned(triangles, "polygon_index")
 
 
-def _read_of_corners(mesh: bpy.types.Mesh, attribute: str, older: str) -> NDArray[np.int32]:
+def _read_of_corners(mesh: bpy.types.Mesh, attribute: str, older: str) -> Ints:
     if attribute not in mesh.attributes:
         return _read_unsigned(mesh.loops, older)
     values = np.empty(len(mesh.loops), np.int32)
@@ -74,23 +70,21 @@ def _read_of_corners(mesh: bpy.types.Mesh, attribute: str, older: str) -> NDArra
     return values
 
 
-def _read_unsigned(
-    elements: bpy.types.bpy_prop_collection, name: str, each: int = 1
-) -> NDArray[np.int32]:
+def _read_unsigned(elements: bpy.types.bpy_prop_collection, name: str, each: int = 1) -> Ints:
     """`each` numbers of every element."""
     values = np.empty(each * len(elements), np.uint32)
     elements.foreach_get(name, values)
     return values.view(np.int32)
 
 
-def selected_faces(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+def selected_faces(mesh: bpy.types.Mesh) -> Flags:
     """Return which faces are selected in edit mode, (p,)."""
     selected = np.zeros(len(mesh.polygons), bool)
     mesh.polygons.foreach_get("select", selected)
     return selected
 
 
-def select_faces(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
+def select_faces(mesh: bpy.types.Mesh, wanted: Flags) -> None:
     """Select the faces that (m,) bool marks and nothing else, with their edges and vertices.
 
     So every select mode shows the same.

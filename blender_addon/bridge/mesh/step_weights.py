@@ -3,18 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+import bpy
 import numpy as np
 
-if TYPE_CHECKING:
-    import bpy
-    from numpy.typing import NDArray
+from ...core.arrays import Floats
 
 _STEPS = 100  # weights are written in this many steps, each in one call
 
 
-def write_steps(source: bpy.types.Object, name: str, weights: NDArray[np.float64]) -> None:
+def write_steps(source: bpy.types.Object, name: str, weights: Floats) -> None:
     """Give a mesh object in object mode a vertex group of (v,) weights from 0 to 1, rounded to hundredths."""
     group = source.vertex_groups.get(name) or source.vertex_groups.new(name=name)
     steps = np.rint(_STEPS * weights).astype(np.int64)

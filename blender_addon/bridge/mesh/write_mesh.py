@@ -5,31 +5,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
-from ...core.axis.medial_axis import no_edges
-from ...core.axis.structure import SEAM
+from ...core.arrays import Floats, Ints
+from ...core.axis.medial_axis import MedialAxis, no_edges
+from ...core.axis.structure import SEAM, Structure
 from ...core.errors import InvalidInputError
-from .attributes import NORMAL, TANGENT, attributes, level_attributes, structure_attributes
+from .attributes import (
+    NORMAL,
+    TANGENT,
+    Attribute,
+    attributes,
+    level_attributes,
+    structure_attributes,
+)
 from .axis_arrays import AxisArrays, arrays_of, edges_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.axis.medial_axis import MedialAxis
-    from ...core.axis.structure import Structure
-    from .attributes import Attribute
 
 
 class Polygons(Protocol):
     """The arrays of a mesh, as in `MedialAxis`."""
 
-    vertices: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
+    vertices: Floats
+    face_offsets: Ints
+    face_vertices: Ints
 
 
 def new_axis_mesh(
@@ -97,7 +99,7 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
     mesh.update()
 
 
-def _shade_by_side(mesh: bpy.types.Mesh, corners: NDArray[np.int32]) -> None:
+def _shade_by_side(mesh: bpy.types.Mesh, corners: Ints) -> None:
     """Shade the smooth faces flat that the normal at a corner of theirs looks away from, which renders draw black.
 
     Smoothness ends at a flat face, so the normals next to it change; each round makes more faces flat, or is the last.
@@ -132,8 +134,8 @@ def new_mesh(
     polygons: Polygons,
     name: str | bpy.types.Mesh,
     table: Iterable[Attribute] = (),
-    edges: NDArray[np.int32] | None = None,
-    of_polygons: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None,
+    edges: Ints | None = None,
+    of_polygons: tuple[Ints, Ints] | None = None,
 ) -> bpy.types.Mesh:
     """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
 
@@ -215,8 +217,8 @@ def _set_faces(
     mesh: bpy.types.Mesh,
     polygons: Polygons,
     positions: np.ndarray,
-    alone: NDArray[np.int32],
-    of_polygons: tuple[NDArray[np.int32], NDArray[np.int32]] | None,
+    alone: Ints,
+    of_polygons: tuple[Ints, Ints] | None,
 ) -> None:
     """Set vertices, edges, corners and polygons.
 

@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from ..mesh.material import radius_material
 from .radii import points_with_radii
 from .tree import Tree
-
-if TYPE_CHECKING:
-    import bpy
 
 COLOURED = "Coloured"
 

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from .tree import Tree
-
-if TYPE_CHECKING:
-    import bpy
 
 _ALONE = "ma_alone"  # marks edges without facets while the others lose theirs
 

@@ -3,17 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ...core.arrays import Floats
 
 _HALVINGS = 16
 
 
-def merging_distance(points: NDArray[np.float64], most: int) -> float:
+def merging_distance(points: Floats, most: int) -> float:
     """Return the distance that leaves about `most` of (n, 3) points; 0 where there are no more.
 
     This many cells of a grid of that width have points in them.
@@ -28,7 +25,7 @@ def merging_distance(points: NDArray[np.float64], most: int) -> float:
     return high
 
 
-def _cells(points: NDArray[np.float64], width: float) -> int:
+def _cells(points: Floats, width: float) -> int:
     cells = ((points - points.min(axis=0)) / width).astype(np.int64)
     sizes = cells.max(axis=0) + 1
     return len(np.unique((cells[:, 0] * sizes[1] + cells[:, 1]) * sizes[2] + cells[:, 2]))

@@ -3,14 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from ..mesh.attributes import RADIUS
-
-if TYPE_CHECKING:
-    import bpy
-
-    from .tree import Tree
+from .tree import Tree
 
 
 def points_with_radii(

@@ -3,15 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from ...core.axis.colours import SCALE
 from ..mesh.colours import COLOUR
-
-if TYPE_CHECKING:
-    import bpy
-
-    from .tree import Tree
+from .tree import Tree
 
 
 def stored_colour(

@@ -3,18 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
+from bpy.types import NodeSocket
 
 from ..mesh.attributes import RADIUS
 from ..mesh.material import radius_material
 from .radii import points_with_radii
 from .ramp import stored_colour
 from .tree import Tree
-
-if TYPE_CHECKING:
-    from bpy.types import NodeSocket
 
 # Grids of distances came with 4.x, behind an experimental option, and are there for all from 5.0.
 HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from .tree import Tree
-
-if TYPE_CHECKING:
-    import bpy
 
 MOVES = "ma_thicken"
 

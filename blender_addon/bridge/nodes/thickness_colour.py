@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
 from ..mesh.attributes import RADIUS
 from .ramp import stored_colour
 from .tree import Tree
-
-if TYPE_CHECKING:
-    import bpy
 
 
 def build(name: str) -> bpy.types.GeometryNodeTree:

@@ -9,19 +9,17 @@ there are, the fewer faces each has: Blender makes them anew in its main thread 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
 
+from ...core.axis.medial_axis import MedialAxis
 from ...core.small_matrices import length_of
 from ..mesh.attributes import RADIUS
 from ..mesh.material import radius_material
 from .inputs import has_inputs, input_of, row_of, set_inputs
 from .tree import Tree
-
-if TYPE_CHECKING:
-    from ...core.axis.medial_axis import MedialAxis
 
 NAME = "Medial Axis Wires"
 WIRES = "ma_wires"  # how many edges without a face and single points a result has

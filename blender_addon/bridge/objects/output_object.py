@@ -11,19 +11,16 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils import Matrix
+from numpy.typing import NDArray
 
 from ... import __version__
 from ...core.errors import InvalidInputError
 from ..mesh.colours import coloured_mesh, remember_colours
 from ..mesh.material import dress
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
 VERSION = "ma_version"

@@ -4,21 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ...core.errors import InvalidInputError
+from ...core.files.imported_points import ImportedPoints
 from ...core.files.rounding import rounding_warning
 from ...core.small_matrices import times
 from ..mesh.attributes import add_normals
 from ..mesh.write_mesh import new_mesh
-
-if TYPE_CHECKING:
-    from mathutils import Matrix
-
-    from ...core.files.imported_points import ImportedPoints
 
 
 def new_points(

@@ -12,20 +12,17 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags, Floats, Ints
 from ...core.axis.polygon_triangles import polygon_triangles
 from ...core.errors import InvalidInputError
 from ...core.shape.shape import Shape
 from ...core.small_matrices import determinant, dot, length_of, stretches, times
 from ..mesh.attributes import read_normals, read_vectors
 from ..mesh.mesh_arrays import read_edges, read_polygons, read_positions
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _ALIKE = 1e-5  # stretches that differ by less are equal but for the rounding of float32
 
@@ -57,9 +54,7 @@ def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Sha
     return replace(shape, points=points, triangles=triangles, normals=normals, frame=frame)
 
 
-def split_transform(
-    world: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def split_transform(world: Floats) -> tuple[Floats, Floats]:
     """Polar decomposition of a world matrix.
 
     Parameters
@@ -87,7 +82,7 @@ def split_transform(
     return frame, times(_without_rounding(times(right.T * size, right.T)), mirror)
 
 
-def _mirror_of(linear: NDArray[np.float64]) -> NDArray[np.float64]:
+def _mirror_of(linear: Floats) -> Floats:
     """Return a mirror along the direction that a matrix stretches least, (3, 3).
 
     Of several such directions it is the one closest to an axis, the first of these. Otherwise the rounding of float32
@@ -101,9 +96,7 @@ def _mirror_of(linear: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.identity(3) - 2.0 * along[:, None] * along
 
 
-def _turn_of(
-    image: NDArray[np.float64], size: NDArray[np.float64], handed: float
-) -> NDArray[np.float64]:
+def _turn_of(image: Floats, size: Floats, handed: float) -> Floats:
     """(3, 3) unit rows along the image, perpendicular to each other also where it is flat, with a determinant of the
     sign of `handed`.
     """
@@ -116,7 +109,7 @@ def _turn_of(
     return np.array([first, second, np.copysign(1.0, handed) * np.cross(first, second)])
 
 
-def _without_rounding(rest: NDArray[np.float64]) -> NDArray[np.float64]:
+def _without_rounding(rest: Floats) -> Floats:
     """Exactly even, or one, where `rest` is so but for what float32 matrix products lose.
 
     It keeps exact symmetries of the points exact, however the object is turned.
@@ -130,7 +123,7 @@ def _without_rounding(rest: NDArray[np.float64]) -> NDArray[np.float64]:
     return scale * np.identity(3)
 
 
-def _of_normals(rest: NDArray[np.float64]) -> NDArray[np.float64]:
+def _of_normals(rest: Floats) -> Floats:
     """Return what turns outward normals when `rest` moves the points, (3, 3): its inverse transpose, up to a
     positive factor, which also exists where `rest` is flat.
     """
@@ -209,12 +202,12 @@ def _evaluated_cloud(
     return None
 
 
-def _read_triangles(mesh: bpy.types.Mesh, points: NDArray[np.float64]) -> NDArray[np.int32]:
+def _read_triangles(mesh: bpy.types.Mesh, points: Floats) -> Ints:
     """Not Blender's, which differ from version to version, but those of a file with these polygons."""
     return polygon_triangles(points, *read_polygons(mesh))
 
 
-def _read_sharp_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
+def _read_sharp_edges(mesh: bpy.types.Mesh) -> Ints | None:
     """Return the edges that are marked sharp, (e, 2); None where there is none."""
     marked = _read_marks(mesh, mesh.edges, "use_edge_sharp", "sharp_edge")
     return read_edges(mesh)[marked] if marked.any() else None
@@ -231,7 +224,7 @@ def _is_shaded_smooth(mesh: bpy.types.Mesh) -> bool:
 
 def _read_marks(
     mesh: bpy.types.Mesh, elements: bpy.types.bpy_prop_collection, name: str, attribute: str
-) -> NDArray[np.bool_]:
+) -> Flags:
     """A mark of edges or faces: from 4.1 an attribute, which there is only where something is marked."""
     marks = np.zeros(len(elements), bool)
     if bpy.app.version < (4, 1, 0):

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import hashlib
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.errors import InvalidInputError
 from ..mesh.mesh_arrays import read_corners, read_positions
 from .output_object import is_gone, is_torn, source_of
 from .read_object import split_transform
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
 
 STATE = "ma_source_state"  # a hash of the shape
 SCALE = "ma_source_scale"  # scale, shear and mirror, 9 numbers

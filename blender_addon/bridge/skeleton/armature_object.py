@@ -6,13 +6,14 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils import Vector
 
+from ...core.arrays import Floats
 from ...core.errors import InvalidInputError
+from ...core.rig.rig import Rig
 from ...core.settings import LimbControl
 from ..objects.output_object import (
     SOURCE,
@@ -24,11 +25,6 @@ from ..objects.output_object import (
     remember,
 )
 from .limb_controls import constrain, controls_of, release
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.rig.rig import Rig
 
 _SHORTEST = 1e-6  # Blender deletes shorter bones
 
@@ -215,7 +211,7 @@ def _new_mark(armature: bpy.types.Object, source: bpy.types.Object) -> str:
     return mark
 
 
-def _check_lengths(rig: Rig, to_local: NDArray[np.float64]) -> None:
+def _check_lengths(rig: Rig, to_local: Floats) -> None:
     along = (rig.bones.tail - rig.bones.head) @ to_local[:3, :3].T
     shortest = float(np.linalg.norm(along, axis=1).min(initial=np.inf))
     if shortest <= _SHORTEST:
@@ -225,7 +221,7 @@ def _check_lengths(rig: Rig, to_local: NDArray[np.float64]) -> None:
         )
 
 
-def _move_others(armature: bpy.types.Armature, moved: NDArray[np.float64]) -> None:
+def _move_others(armature: bpy.types.Armature, moved: Floats) -> None:
     """Keep the bones of an artist in place when the frame of the armature has changed."""
     if np.allclose(moved, np.eye(4), rtol=0.0, atol=1e-12):
         return
@@ -240,7 +236,7 @@ def _move_others(armature: bpy.types.Armature, moved: NDArray[np.float64]) -> No
 def _fill(
     armature: bpy.types.Armature,
     rig: Rig,
-    to_local: NDArray[np.float64],
+    to_local: Floats,
     mark: str,
     taken: set[str],
     ik: LimbControl,
@@ -288,12 +284,7 @@ def _bone(
     return bone
 
 
-def _lay(
-    bone: bpy.types.EditBone,
-    head: NDArray[np.float64],
-    tail: NDArray[np.float64],
-    up: NDArray[np.float64],
-) -> None:
+def _lay(bone: bpy.types.EditBone, head: Floats, tail: Floats, up: Floats) -> None:
     bone.head, bone.tail = head.tolist(), tail.tolist()
     bone.align_roll(Vector(up.tolist()))
 

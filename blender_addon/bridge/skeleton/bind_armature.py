@@ -6,18 +6,15 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ...core.errors import InvalidInputError
+from ...core.rig.rig import Rig
 from ..objects.output_object import inverse_of
 from .armature_object import MADE, active, bones_of, mark_of, rig_of
 from .skeleton_object import rows_of_vertices
-
-if TYPE_CHECKING:
-    from ...core.rig.rig import Rig
 
 MODIFIER = "Medial Axis Armature"
 _GROUPS = "ma_groups"  # the vertex groups that were made here, a name per line

@@ -3,21 +3,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+import bpy
 import numpy as np
 
+from ...core.axis.medial_axis import MedialAxis
 from ...core.curves.net import chains
 from ...core.errors import InvalidInputError
 from ...core.skeleton.skeleton import Skeleton
 from ..axis.read_axis import read_axis
 from ..objects.output_object import follow_like, new_object
 from .skeleton_object import check_size, fill_curve, new_curve
-
-if TYPE_CHECKING:
-    import bpy
-
-    from ...core.axis.medial_axis import MedialAxis
 
 SUFFIX = " Curve"
 

@@ -3,21 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bpy
+from mathutils import Vector
 
 from ...core.rig.names import target_of
+from ...core.rig.rig import Rig
 from ...core.settings import LimbControl
 from ..objects.output_object import new_object
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from mathutils import Vector
-
-    from ...core.rig.rig import Rig
 
 IK = "Medial Axis IK"  # the constraints that were made here
 _LINE = "ma_line"  # on the curve of a limb: a pointer to the source

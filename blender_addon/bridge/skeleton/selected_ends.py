@@ -3,23 +3,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
+from ...core.arrays import Floats
 from ...core.curves.spread import groups_of
 from ...core.errors import InvalidInputError
+from ...core.shape.shape import Shape
 from ..mesh.mesh_arrays import read_edges
 from .skeleton_object import rows_of_vertices
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-    from ...core.shape.shape import Shape
-
-
-def selected_ends(source: bpy.types.Object, shape: Shape) -> NDArray[np.float64]:
+def selected_ends(source: bpy.types.Object, shape: Shape) -> Floats:
     """Return an end for each connected group of selected vertices, (e, 3): their mean, in the space of the shape.
 
     Raises

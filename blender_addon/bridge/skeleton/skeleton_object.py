@@ -3,26 +3,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
+from ...core.arrays import Ints, Longs
 from ...core.errors import InvalidInputError
 from ...core.shape.nearness import nearest
+from ...core.shape.shape import Shape
+from ...core.skeleton.compute import Skeletonization
+from ...core.skeleton.skeleton import Skeleton
 from ...core.small_matrices import times
 from ..mesh.attributes import set_attribute
 from ..mesh.evaluated_rows import only_deforms, row_of_vertices
 from ..mesh.mesh_arrays import read_polygons, read_positions
 from ..objects.output_object import Product, check_mode, new_object, place, remember
 from ..objects.read_object import split_transform
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.shape.shape import Shape
-    from ...core.skeleton.compute import Skeletonization
-    from ...core.skeleton.skeleton import Skeleton
 
 ENDS = "ma_ends"
 LOOPS = "ma_loops"
@@ -106,9 +101,7 @@ def fill_curve(curve: bpy.types.Curve, skeleton: Skeleton) -> None:
         _add_spline(curve, skeleton, np.array([row]), False)
 
 
-def _add_spline(
-    curve: bpy.types.Curve, skeleton: Skeleton, rows: NDArray[np.int32], closed: bool
-) -> None:
+def _add_spline(curve: bpy.types.Curve, skeleton: Skeleton, rows: Ints, closed: bool) -> None:
     spline = curve.splines.new("POLY")
     spline.points.add(len(rows) - 1)
     places = np.column_stack((skeleton.points[rows], np.ones(len(rows))))
@@ -120,7 +113,7 @@ def _add_spline(
 # --- on the source
 
 
-def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
+def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> Longs:
     """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
     readable = source.mode != "EDIT" or only_deforms(source)  # there attributes cannot be written
     if readable and shape.has_vertices(len(source.data.vertices)):
@@ -151,9 +144,7 @@ def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
     mesh.update()
 
 
-def _most_frequent(
-    face: NDArray[np.int64], part: NDArray[np.int32], count: int
-) -> NDArray[np.int32]:
+def _most_frequent(face: Longs, part: Ints, count: int) -> Ints:
     """Return the part that most corners of each face have, (count,); of several the lowest."""
     pairs, times = np.unique(np.column_stack((face, part)), axis=0, return_counts=True)
     order = np.lexsort((-pairs[:, 1], times, pairs[:, 0]))

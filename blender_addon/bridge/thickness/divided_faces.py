@@ -6,21 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ...core.arrays import Flags, Floats
 from ...core.errors import InvalidInputError
+from ...core.shape.shape import Shape
 from ..mesh.mesh_arrays import read_loop_triangles, selected_faces
 from ..objects.read_object import read_object, split_transform
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...core.shape.shape import Shape
 
 # Layers of faces, while they are divided. Blender 5.2 forgets the selection of faces whose vertices are not selected.
 _CHOSEN, _SELECTED = "ma_divided", "ma_selected"
@@ -40,16 +36,14 @@ class Division:
         The scale of the object, as of `split_transform`.
     """
 
-    faces: NDArray[np.bool_]
+    faces: Flags
     longest: float
-    rest: NDArray[np.float64]
+    rest: Floats
 
 
 @contextmanager
 def divided(
-    source: bpy.types.Object,
-    wanted: Callable[[Shape], tuple[NDArray[np.bool_], float]],
-    most: int,
+    source: bpy.types.Object, wanted: Callable[[Shape], tuple[Flags, float]], most: int
 ) -> Iterator[tuple[Division, ...]]:
     """Give an object a mesh whose faces are divided, in the body of a `with`; yields the steps for `divide`.
 
@@ -73,9 +67,7 @@ def divided(
 
 
 def _steps(
-    source: bpy.types.Object,
-    wanted: Callable[[Shape], tuple[NDArray[np.bool_], float]],
-    most: int,
+    source: bpy.types.Object, wanted: Callable[[Shape], tuple[Flags, float]], most: int
 ) -> Iterator[Division]:
     for number in range(most):
         bpy.context.view_layer.update()
@@ -89,7 +81,7 @@ def _steps(
         yield step
 
 
-def _division(source: bpy.types.Object, triangles: NDArray[np.bool_], longest: float) -> Division:
+def _division(source: bpy.types.Object, triangles: Flags, longest: float) -> Division:
     _, polygons = read_loop_triangles(source.data)
     faces = np.zeros(len(source.data.polygons), bool)
     faces[polygons[triangles]] = True
@@ -131,7 +123,7 @@ def divide(mesh: bpy.types.Mesh, step: Division) -> None:
     mesh.update()
 
 
-def _mark(grid: bmesh.types.BMesh, name: str, marked: NDArray[np.bool_]) -> None:
+def _mark(grid: bmesh.types.BMesh, name: str, marked: Flags) -> None:
     """Give faces a layer, of which the pieces of a face have the value of the face."""
     layer = grid.faces.layers.int.new(name)
     for face, value in zip(grid.faces, marked.tolist(), strict=True):

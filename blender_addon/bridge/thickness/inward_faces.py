@@ -3,18 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags
 from ...core.shape.outward_faces import TURNED, outward_shape
 from ...core.shape.shape import Shape
 from ..mesh.mesh_arrays import read_loop_triangles, read_positions, select_faces
 from .thin_selection import in_object_mode
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 def select_inward(thing: bpy.types.Object) -> int:
@@ -48,7 +44,7 @@ def turn_inward(thing: bpy.types.Object) -> int:
     return len(rows)
 
 
-def inward_polygons(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+def inward_polygons(mesh: bpy.types.Mesh) -> Flags:
     """Return the polygons that rays call turned, (p,), without modifiers."""
     triangles, polygons = read_loop_triangles(mesh)
     inward = np.zeros(len(mesh.polygons), bool)

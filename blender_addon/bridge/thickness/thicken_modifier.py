@@ -4,11 +4,10 @@ a vertex group of where they are."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags, Floats
 from ...core.errors import InvalidInputError
 from ...core.small_matrices import inverse, times
 from ..mesh.attributes import as_float32, read_vectors, set_attribute
@@ -20,9 +19,6 @@ from ..nodes.inputs import input_of, set_inputs
 from ..nodes.thicken import MOVES
 from ..objects.output_object import check_mode
 from ..objects.read_object import split_transform
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _GROUP = "Medial Axis Thicken"
 _MADE = "ma_thicken_group"  # on the source: the name of the vertex group that was made here
@@ -56,7 +52,7 @@ def reserve_moves(source: bpy.types.Object) -> None:
         set_attribute(source.data, MOVES, "FLOAT_VECTOR", "POINT", none)
 
 
-def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
+def write_moves(source: bpy.types.Object, moves: Floats) -> None:
     """Give a source the moves, on top of those that its modifier applies already.
 
     Parameters
@@ -99,7 +95,7 @@ def thicken_modifier(source: bpy.types.Object) -> bpy.types.NodesModifier | None
     return None
 
 
-def selected_triangles(source: bpy.types.Object) -> NDArray[np.bool_]:
+def selected_triangles(source: bpy.types.Object) -> Flags:
     """Return which of a mesh's triangles belong to faces that are selected in edit mode, (m,)."""
     _, polygons = read_loop_triangles(source.data)
     return selected_faces(source.data)[polygons]

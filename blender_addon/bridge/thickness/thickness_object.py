@@ -8,11 +8,11 @@ The object that is coloured, source or copy, is the carrier: it keeps the figure
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags, Floats
 from ...core.shape.triangle_faces import TriangleFaces
 from ...core.thickness.measurement import Measurement
 from ...core.thickness.thickness_colours import ThicknessScale, histogram, scale_of
@@ -35,9 +35,6 @@ from ..objects.output_object import (
     remember,
     source_of,
 )
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 THICKNESS, THIN = "ma_thickness", "ma_thin"
 KEY = "ma_thickness_key"  # names the measurement
@@ -93,7 +90,7 @@ def check_thickness_writable(source: bpy.types.Object) -> None:
 
 
 def write_thickness(
-    source: bpy.types.Object, found: Measurement, parts: ThinParts, frame: NDArray[np.float64]
+    source: bpy.types.Object, found: Measurement, parts: ThinParts, frame: Floats
 ) -> bpy.types.Object:
     """Write what was measured; returns the carrier.
 
@@ -160,20 +157,18 @@ def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
     return len(mesh.loop_triangles) == len(found.shape.triangles)
 
 
-def _thin_polygons(mesh: bpy.types.Mesh, parts: ThinParts) -> NDArray[np.bool_]:
+def _thin_polygons(mesh: bpy.types.Mesh, parts: ThinParts) -> Flags:
     _, polygons = read_loop_triangles(mesh)
     thin = np.zeros(len(mesh.polygons), bool)
     thin[polygons[parts.patch_of_faces >= 0]] = True
     return thin
 
 
-def _write_attributes(mesh: bpy.types.Mesh, lengths: NDArray[np.float64]) -> None:
+def _write_attributes(mesh: bpy.types.Mesh, lengths: Floats) -> None:
     set_attribute(mesh, THICKNESS, "FLOAT", "POINT", as_float32(lengths))
 
 
-def _write_copy(
-    source: bpy.types.Object, found: Measurement, frame: NDArray[np.float64]
-) -> bpy.types.Object:
+def _write_copy(source: bpy.types.Object, found: Measurement, frame: Floats) -> bpy.types.Object:
     copy, is_new = COPY.write_mesh(source, partial(_copy_mesh, found))
     if is_new:
         copy.show_in_front = True  # it lies on its source
@@ -188,7 +183,7 @@ def _copy_mesh(found: Measurement, name: str) -> bpy.types.Mesh:
     return mesh
 
 
-def _remember(carrier: bpy.types.Object, found: Measurement, local: NDArray[np.float64]) -> None:
+def _remember(carrier: bpy.types.Object, found: Measurement, local: Floats) -> None:
     carrier[KEY] = found.key
     carrier[MINIMUM] = found.minimum
     carrier[GAP] = found.settings.between.name == "GAP"
@@ -215,5 +210,5 @@ def _remember_parts(carrier: bpy.types.Object, parts: ThinParts) -> None:
     carrier.update_tag()
 
 
-def _moved(matrix: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
+def _moved(matrix: Floats, point: Floats) -> Floats:
     return matrix[:3, :3] @ point + matrix[:3, 3]

@@ -5,18 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
+from ...core.arrays import Flags, Floats
 from ...core.machine.native import own_errors
 from ..mesh.attributes import read_vectors
 from ..mesh.mesh_arrays import read_loop_triangles, select_faces
 from .thickness_object import LEAST, MINIMUM, PLACES, THIN
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _SOME_MINIMA = 10  # as large as a thin patch is shown, in its thickness
 _COLUMNS = 5  # of a patch: x, y, z, area, minimum
@@ -60,7 +57,7 @@ def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) 
     return int(np.count_nonzero(wanted))
 
 
-def _thin(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+def _thin(mesh: bpy.types.Mesh) -> Flags:
     found = mesh.attributes.get(THIN)
     flags = np.zeros(len(mesh.polygons), bool)
     if found is not None and (found.domain, found.data_type) == ("FACE", "BOOLEAN"):
@@ -68,9 +65,7 @@ def _thin(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
     return flags
 
 
-def _connected(
-    mesh: bpy.types.Mesh, thin: NDArray[np.bool_], near: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _connected(mesh: bpy.types.Mesh, thin: Flags, near: Floats) -> Flags:
     triangles, polygons = read_loop_triangles(mesh)
     some = thin if thin.any() else np.ones(len(thin), bool)
     centres = read_vectors(mesh.polygons, "center")

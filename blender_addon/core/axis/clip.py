@@ -8,23 +8,17 @@ one polygon of each (Sutherland and Hodgman 1974). Facets that share an edge sha
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot
 from .cut import with_facets
 from .directions import corners_after
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .medial_axis import MedialAxis
+from .medial_axis import MedialAxis
 
 
-def within_box(
-    axis: MedialAxis, low: NDArray[np.float64], high: NDArray[np.float64], times: float
-) -> MedialAxis:
+def within_box(axis: MedialAxis, low: Floats, high: Floats, times: float) -> MedialAxis:
     """Keep what lies in the box from `low` to `high`, enlarged about its middle.
 
     Parameters
@@ -62,7 +56,7 @@ def _cut_at(axis: MedialAxis, k: int, sign: float, side: float) -> MedialAxis:
 
 
 def _with_vertices(
-    axis: MedialAxis, edges: NDArray[np.int32], beyond: NDArray[np.float64], k: int, side: float
+    axis: MedialAxis, edges: Ints, beyond: Floats, k: int, side: float
 ) -> MedialAxis:
     """Add a vertex on each edge where it leaves the box; the first end of an edge is within."""
     start, end = edges.T
@@ -83,9 +77,7 @@ def _with_vertices(
     )
 
 
-def _with_corners(
-    axis: MedialAxis, stays: NDArray[np.bool_], crosses: NDArray[np.bool_], new: NDArray[np.int64]
-) -> MedialAxis:
+def _with_corners(axis: MedialAxis, stays: Flags, crosses: Flags, new: Longs) -> MedialAxis:
     """Keep corners of facets, and give those whose edge leaves or enters the box a new corner after them."""
     count = stays.astype(np.int64) + crosses
     last = np.cumsum(count)

@@ -8,14 +8,12 @@ Both ends differ from the greys of Blender's dark and light viewports.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import Floats
 from ..portable_cosine import cosine
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
 
 # Positions and linear RGB; colours in between are interpolated, as in a colour ramp of Blender.
 SCALE = (
@@ -62,7 +60,7 @@ def radius_range(radii: Sequence[float] | NDArray) -> tuple[float, float]:
     return largest, min(float(np.min(radii)), largest / 2)
 
 
-def _shares(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
+def _shares(values: Floats, start: float, end: float) -> Floats:
     """Return the positions of numbers between start (0) and end (1), (n,); 0 or 1 outside."""
     if start == end:
         return np.where(np.isnan(values), np.nan, 0.0)

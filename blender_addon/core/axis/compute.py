@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine.cache import CACHE
 from ..machine.memory_limit import CURVE, WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
+from ..samples.analysed import Sides
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
+from ..samples.density import Density
 from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..settings import Form, Settings, SidesFrom
@@ -22,14 +25,6 @@ from .axis_warnings import axis_warnings
 from .extract import extract
 from .medial_axis import MedialAxis
 from .topology import topology_sentence
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..samples.analysed import Sides
-    from ..samples.density import Density
-
 
 # The share of the work before the hierarchy begins.
 _ANALYSIS = 0.6
@@ -71,9 +66,9 @@ class Computation(OfChosenSamples):
     seconds: float
     turned: int = 0
     mesh: MeshCounts | None = None
-    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    origin: Floats = field(default_factory=lambda: np.zeros(3))
 
-    def moved(self, by: NDArray[np.float64]) -> Computation:
+    def moved(self, by: Floats) -> Computation:
         """The computation with an axis that is moved out of the frame of the samples."""
         return replace(self, axis=self.axis.moved(by), origin=self.origin + by)
 
@@ -100,11 +95,11 @@ class Computation(OfChosenSamples):
 
 
 def compute(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
+    points: Floats,
+    triangles: Ints,
     settings: Settings,
     progress: Progress | None = None,
-    normals: NDArray[np.float64] | None = None,
+    normals: Floats | None = None,
 ) -> Computation:
     """Do the same as `compute_axis` for arrays."""
     return compute_axis(Shape(points, triangles, normals), settings, progress)

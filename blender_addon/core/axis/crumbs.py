@@ -7,20 +7,18 @@ does not have. Their axes are single points and short wires.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
+from ..samples.analysed import AnalysedSamples
 from ..shape.nearness import nearest
 from .cut import lowest_of_piece
+from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
 from .spacing import spacing_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.analysed import AnalysedSamples
-    from .medial_axis import MedialAxis
 
 LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting
 
@@ -73,7 +71,7 @@ def without_crumbs(axis: MedialAxis, smallest: float) -> MedialAxis:
     return with_rows(axis, keep, axis.edges[wires], level.limb[wires])
 
 
-def _piece_of(wires: NDArray[np.int32], small: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _piece_of(wires: Ints, small: Flags) -> Longs:
     """Return the lowest vertex of the piece of each vertex, (v,); -1 where a vertex of the piece is not small."""
     both = wires[small[wires].all(axis=1)]
     piece = lowest_of_piece(len(small), np.arange(0, 2 * len(both), 2), both.ravel())
@@ -83,9 +81,7 @@ def _piece_of(wires: NDArray[np.int32], small: NDArray[np.bool_]) -> NDArray[np.
     return np.where(small & ~large[piece], piece, -1)
 
 
-def _sizes(
-    level: Any, rows: NDArray[np.int64], piece: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _sizes(level: Any, rows: Longs, piece: Longs) -> tuple[Floats, Longs]:
     """Return the size of the piece of each of these vertices, (r,), and the first vertex of that piece."""
     order = np.argsort(piece, kind="stable")
     starts = np.flatnonzero(np.diff(piece[order], prepend=-1))

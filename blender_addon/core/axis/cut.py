@@ -7,22 +7,19 @@ This is for axes as published, which consist of facets only.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Longs
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .medial_axis import MedialAxis
+from .medial_axis import MedialAxis
 
 _OUTER = 2  # value of `MedialAxis.side`
 _PER_FACET = ("theta", "rho", "side", "generators")
 
 
-def pieces(axis: MedialAxis) -> NDArray[np.int64]:
+def pieces(axis: MedialAxis) -> Longs:
     """Return the number of the connected piece of each facet, (f,); piece 0 has the most facets."""
     if not axis.facets:
         return np.zeros(0, np.int64)
@@ -69,13 +66,13 @@ def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
     return _with_pieces(axis, piece, ~(outer & small))
 
 
-def _with_pieces(axis: MedialAxis, piece: NDArray[np.intp], large: NDArray[np.bool_]) -> MedialAxis:
+def _with_pieces(axis: MedialAxis, piece: NDArray[np.intp], large: Flags) -> MedialAxis:
     """Keep the large pieces, and always the largest, which is the first."""
     large[0] = True
     return axis if large.all() else with_facets(axis, large[piece])
 
 
-def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
+def with_facets(axis: MedialAxis, keep: Flags) -> MedialAxis:
     """Keep the facets that (f,) bool marks, and their vertices, in the same order."""
     sizes = np.diff(axis.face_offsets)
     corners = axis.face_vertices[np.repeat(keep, sizes)]
@@ -95,7 +92,7 @@ def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
 
 def lowest_of_piece(
     vertices: int, starts: NDArray[np.integer], corners: NDArray[np.integer]
-) -> NDArray[np.int64]:
+) -> Longs:
     """Return the lowest vertex of the piece of each vertex, (v,); facets or edges join their corners.
 
     Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
@@ -125,9 +122,7 @@ def lowest_of_piece(
         label = _hooked(label, used[falls], lowest[falls])
 
 
-def _hooked(
-    label: NDArray[np.int64], vertex: NDArray[np.integer], lowest: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _hooked(label: Longs, vertex: NDArray[np.integer], lowest: Longs) -> Longs:
     """The labels after some vertices, and the vertices that were their labels, have got lower ones."""
     hooked = label.copy()
     falling = np.argsort(-lowest, kind="stable")

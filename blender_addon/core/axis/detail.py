@@ -8,23 +8,20 @@ not done, so a curve with less detail has only loops and branches of one with mo
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..curves.loaded_net import genuine_loops, loaded_net
+from ..arrays import Flags, Ints
+from ..curves.loaded_net import LoadedNet, genuine_loops, loaded_net
 from ..curves.removals import Removals, removals_of, take_apart
+from ..curves.rules import Loops
+from ..samples.analysed import AnalysedSamples
 from ..settings import SkeletonSettings
 from .cut import lowest_of_piece
+from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.loaded_net import LoadedNet
-    from ..curves.rules import Loops
-    from ..samples.analysed import AnalysedSamples
-    from .medial_axis import MedialAxis
 
 _SHARE = SkeletonSettings().share
 
@@ -84,7 +81,7 @@ def _loaded(level: Any, hierarchy: Any, samples: AnalysedSamples) -> LoadedNet:
     return loaded_net(samples, hierarchy, level, np.unique(level.face_vertices).tolist())
 
 
-def _with_edges(axis: MedialAxis, edges: NDArray[np.int32]) -> MedialAxis:
+def _with_edges(axis: MedialAxis, edges: Ints) -> MedialAxis:
     """Return a curve with other edges, of which each piece has some or one vertex."""
     values = axis.level
     assert values is not None
@@ -101,7 +98,7 @@ def _with_edges(axis: MedialAxis, edges: NDArray[np.int32]) -> MedialAxis:
     return replace(fewer, level=replace(fewer.level, betti=betti, loops_left_out=lost))
 
 
-def _alone(axis: MedialAxis, keep: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _alone(axis: MedialAxis, keep: Flags) -> Flags:
     """Return the largest ball of each piece of wires of which nothing else is kept, and single points, (v,)."""
     piece = lowest_of_piece(len(keep), np.arange(0, 2 * len(axis.edges), 2), axis.edges.ravel())
     order = np.lexsort((np.arange(len(keep)), -axis.radius, piece))
@@ -115,7 +112,7 @@ def _alone(axis: MedialAxis, keep: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return alone
 
 
-def _limbs(axis: MedialAxis, edges: NDArray[np.int32]) -> NDArray[np.float32]:
+def _limbs(axis: MedialAxis, edges: Ints) -> NDArray[np.float32]:
     """Return the values of edges; a new one has the smaller of the largest values at its ends."""
     values = axis.level
     assert values is not None

@@ -3,20 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..small_matrices import times
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def facet_areas(
-    vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
-) -> NDArray[np.float64]:
+def facet_areas(vertices: Floats, offsets: Ints, corners: Ints) -> Floats:
     """Return the areas of planar facets, (f,); those of others are a little less than their triangles'.
 
     Parameters
@@ -29,19 +23,12 @@ def facet_areas(
     return 0.5 * np.linalg.norm(_doubled_areas(vertices, offsets, corners), axis=1)
 
 
-def facet_normals(
-    vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
-) -> NDArray[np.float64]:
+def facet_normals(vertices: Floats, offsets: Ints, corners: Ints) -> Floats:
     """Return the unit normals of facets, (f, 3), which are given as for `facet_areas`; 0 where a facet has no area."""
     return _unit(_doubled_areas(_scaled(vertices), offsets, corners))
 
 
-def sheet_normals(
-    vertices: NDArray[np.float64],
-    offsets: NDArray[np.int32],
-    corners: NDArray[np.int32],
-    part: NDArray[np.int32],
-) -> NDArray[np.float64]:
+def sheet_normals(vertices: Floats, offsets: Ints, corners: Ints, part: Ints) -> Floats:
     """Return the unit normal of the sheet at each vertex, (v, 3), the mean over the facets of one part, by area.
 
     A vertex on a seam has that of the part with the largest area round it, of equal ones the lowest. Where facets of a
@@ -70,9 +57,7 @@ def sheet_normals(
     return _unit(total)
 
 
-def _part_of_vertices(
-    count: int, vertex: NDArray[np.int32], part: NDArray[np.int32], area: NDArray[np.float64]
-) -> NDArray[np.int32]:
+def _part_of_vertices(count: int, vertex: Ints, part: Ints, area: Floats) -> Ints:
     """Return the part with the largest area at each vertex, (count,), of corners with a vertex, a part and an area."""
     own = np.full(count, -1, np.int32)
     own[vertex] = part
@@ -89,22 +74,20 @@ def _part_of_vertices(
     return own
 
 
-def _doubled_areas(
-    vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
-) -> NDArray[np.float64]:
+def _doubled_areas(vertices: Floats, offsets: Ints, corners: Ints) -> Floats:
     """Return vectors along the normals of facets, (f, 3), twice as long as their areas are large."""
     with own_errors() as module:
         return np.asarray(module.polygon_areas(vertices, offsets, corners))
 
 
-def corners_after(offsets: NDArray[np.int32]) -> NDArray[np.int64]:
+def corners_after(offsets: Ints) -> Longs:
     """Return the corner after each corner of a facet, (c,), whose corners begin at (f + 1,) `offsets`."""
     after = np.arange(1, int(offsets[-1]) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
     return after
 
 
-def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:
+def curve_tangents(vertices: Floats, wires: Ints) -> Floats:
     """Return the unit direction of the curve at each vertex, (v, 3), the same way along a chain of a relaxed level.
 
     At a fork it is that of the two wires that go straightest through it. A vertex without a wire has the vector 0.
@@ -125,7 +108,7 @@ def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> N
     return _unit(total)
 
 
-def _straightest(along: NDArray[np.float64], leaves: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _straightest(along: Floats, leaves: Flags) -> Floats:
     """The direction through a fork, of the (n, 3) directions of its wires, which leave it or end there."""
     away = np.where(leaves[:, None], along, -along)
     first, last = divmod(int(np.argmin(times(away, away))), len(away))
@@ -133,18 +116,18 @@ def _straightest(along: NDArray[np.float64], leaves: NDArray[np.bool_]) -> NDArr
     return through if leaves[last] else -through
 
 
-def _scaled(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+def _scaled(vertices: Floats) -> Floats:
     """The vertices with coordinates up to 1, so that no square of them overflows."""
     largest = float(np.abs(vertices).max(initial=0.0))
     return vertices / largest if largest > 0.0 else vertices
 
 
-def _sums(rows: NDArray[np.int32], vectors: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def _sums(rows: Ints, vectors: Floats, count: int) -> Floats:
     """Return the sum of the vectors with each row, (count, 3)."""
     return np.column_stack([np.bincount(rows, vectors[:, k], count) for k in range(3)])
 
 
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _unit(vectors: Floats) -> Floats:
     """Vectors of length 1 in the same directions; those without a length stay 0."""
     largest = np.abs(vectors).max(axis=1, keepdims=True, initial=0.0)  # no square overflows
     scaled = np.divide(vectors, largest, out=np.zeros_like(vectors), where=largest > 0.0)

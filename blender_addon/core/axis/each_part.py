@@ -5,17 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ..errors import DegenerateInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..samples.mesh_parts import split
+from ..settings import Settings
+from ..shape.shape import Shape
 from .compute import Computation, compute_axis
-
-if TYPE_CHECKING:
-    from ..settings import Settings
-    from ..shape.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,18 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..machine import native
+from ..machine.progress import Progress
+from ..samples.analysed import AnalysedSamples
 from ..settings import Form, Settings
 from .levels import extract_level
 from .medial_axis import MedialAxis
-
-if TYPE_CHECKING:
-    from ..machine.progress import Progress
-    from ..samples.analysed import AnalysedSamples
 
 # The fields of both `_medial.MedialMesh` and `MedialAxis`.
 _SAME = (

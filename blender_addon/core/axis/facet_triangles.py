@@ -8,21 +8,15 @@ is thin, which always succeeds on a convex polygon that has an area.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ..arrays import Floats, Ints
 
 _CHUNK = 1 << 15  # the number of polygons cut at once; bounds the memory
 
 
-def triangulate_facets(
-    vertices: NDArray[np.float64],
-    face_offsets: NDArray[np.int32],
-    face_vertices: NDArray[np.int32],
-) -> NDArray[np.int32]:
+def triangulate_facets(vertices: Floats, face_offsets: Ints, face_vertices: Ints) -> Ints:
     """Triangulate convex polygons, without triangles of no area.
 
     Parameters
@@ -49,7 +43,7 @@ def triangulate_facets(
     return triangles
 
 
-def _cut_ears(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int32]:
+def _cut_ears(points: Floats, corners: Ints) -> Ints:
     """Triangulate polygons.
 
     Parameters
@@ -73,7 +67,7 @@ def _cut_ears(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArra
     return np.stack([*ears, corners], axis=1)
 
 
-def _flattened(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _flattened(points: Floats) -> tuple[Floats, Floats]:
     """x and y, each (m, k): the polygons seen along the axis nearest to their normal.
 
     All areas of one polygon shrink by the same factor, so comparing them stays valid; the signs may turn.
@@ -85,7 +79,7 @@ def _flattened(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
     return around[rows, :, (across + 1) % 3], around[rows, :, (across + 2) % 3]
 
 
-def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.intp]:
+def _best_ear(x: Floats, y: Floats) -> NDArray[np.intp]:
     """Return the corner of each (m, k) polygon where the smaller of ear and remainder is largest, (m,)."""
     x_next, y_next = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     x_last, y_last = np.roll(x, 1, axis=1), np.roll(y, 1, axis=1)

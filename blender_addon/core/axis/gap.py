@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ..arrays import Flags, Floats
 
 _CLEAR = 3.0  # a gap is clear where what stays is this many times as thick as what goes
 _SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes
 
 
-def gap_of(hierarchy: Any, area: NDArray[np.float64]) -> float | None:
+def gap_of(hierarchy: Any, area: Floats) -> float | None:
     """Return the length of `length_in_gap` of the sheets of a hierarchy, in percent of the diagonal.
 
     Parameters
@@ -31,9 +30,7 @@ def gap_of(hierarchy: Any, area: NDArray[np.float64]) -> float | None:
     return length_in_gap(100 * hierarchy.facet_sheet.astype(np.float64), area, is_meant)
 
 
-def length_in_gap(
-    values: NDArray[np.float64], weights: NDArray[np.float64], is_meant: NDArray[np.bool_]
-) -> float | None:
+def length_in_gap(values: Floats, weights: Floats, is_meant: Flags) -> float | None:
     """Return the middle, by ratio, of the widest gap between small values and others; None where no gap is clear.
 
     At a clear gap no value lies within a factor of three. What is below weighs enough to be seen and no more than half,

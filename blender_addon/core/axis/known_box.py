@@ -4,19 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ... import __version__
+from ..arrays import Floats
 from ..machine import native
 from ..settings import SamplingMode, Settings
 from .compute import Computation, compute
 from .medial_axis import MedialAxis
 from .topology import betti_words
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 SIZES = np.array([2.0, 1.5, 1.0])
 _SAMPLES = 3000
@@ -91,7 +89,7 @@ def _of_shape(axis: MedialAxis, close: float) -> list[Check]:
     ]
 
 
-def _facets(module: Any, points: NDArray[np.float64], threads: int) -> tuple[bytes, ...]:
+def _facets(module: Any, points: Floats, threads: int) -> tuple[bytes, ...]:
     """The whole axis of points, byte by byte."""
     mesh = module.MedialAnalysis(points, threads=threads).extract()
     return tuple(

@@ -8,28 +8,24 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..curves.depth import Depth
 from ..machine import native
 from ..machine.cache import CACHE
+from ..machine.progress import Progress
+from ..samples.analysed import AnalysedSamples
 from ..settings import Form, Mesh, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
 from .gap import gap_of
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
-from .slider_range import ranges_of, shown_areas
+from .slider_range import SliderRange, ranges_of, shown_areas
 from .smooth_curve import smooth_curve
 from .structure import structure_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..samples.analysed import AnalysedSamples
-    from .slider_range import SliderRange
 
 _INNER = 1  # value of `_medial.Side`
 
@@ -126,7 +122,7 @@ def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
     return depth
 
 
-def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _inside(samples: AnalysedSamples, places: Floats) -> Flags:
     """Return whether places are in the solid, (n,); all of them where no faces decide."""
     if samples.solid is None:
         return np.ones(len(places), np.bool_)
@@ -135,7 +131,7 @@ def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np
         return np.asarray(module.winding_number(places, shape.points, shape.triangles)) > 0.5
 
 
-def _placing(level: Any) -> NDArray[np.int32]:
+def _placing(level: Any) -> Ints:
     """Return (v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples, but for ends of curves.
 
     A curve ends with radius 0 in the tip of a cone, or on a sharp edge.

@@ -4,16 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .slider_range import SliderRange
-    from .structure import Structure
-
+from ..arrays import Flags, Floats, Ints
+from .slider_range import SliderRange
+from .structure import Structure
 
 # Values of `LevelValues.place`. A vertex is on the Voronoi diagram because no faces are known there or the samples are
 # very dense, or because the ball of the faces was not empty or too far away; or it is where the ball touches the faces,
@@ -54,13 +51,13 @@ class LevelValues:
         How many loops and branches of a curve Detail can leave out; None where the axis is no curve.
     """
 
-    exact: NDArray[np.float64]
-    exact_radius: NDArray[np.float64]
+    exact: Floats
+    exact_radius: Floats
     sheet: NDArray[np.float32]
     erosion: NDArray[np.float32]
     limb: NDArray[np.float32]
     betti: tuple[int, int, int]
-    place: NDArray[np.int32]
+    place: Ints
     crumb: NDArray[np.float32] | None = None
     ranges: dict[str, SliderRange] = field(default_factory=dict)
     gap: float | None = None
@@ -68,7 +65,7 @@ class LevelValues:
     removals: int | None = None
 
     @property
-    def is_crisp(self) -> NDArray[np.bool_]:
+    def is_crisp(self) -> Flags:
         """(v,) whether the ball of each vertex ends at the faces; else it ends at the samples."""
         return self.place >= TOUCHING
 
@@ -88,7 +85,7 @@ class LevelValues:
         return f"{crisp:,} of {balls:,} balls end at the faces, the others at the samples"
 
 
-def no_edges() -> NDArray[np.int32]:
+def no_edges() -> Ints:
     return np.zeros((0, 2), np.int32)
 
 
@@ -123,21 +120,21 @@ class MedialAxis:
         Sheets, seams, rims, junctions and corners; only of levels, and None where they are not known.
     """
 
-    vertices: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
-    theta: NDArray[np.float64]
-    rho: NDArray[np.float64]
-    side: NDArray[np.int32]
-    generators: NDArray[np.int32]
+    vertices: Floats
+    radius: Floats
+    face_offsets: Ints
+    face_vertices: Ints
+    theta: Floats
+    rho: Floats
+    side: Ints
+    generators: Ints
     unbounded: int
     zero_area: int
-    edges: NDArray[np.int32] = field(default_factory=no_edges)
+    edges: Ints = field(default_factory=no_edges)
     level: LevelValues | None = None
     structure: Structure | None = None
 
-    def moved(self, by: NDArray[np.float64]) -> MedialAxis:
+    def moved(self, by: Floats) -> MedialAxis:
         """The axis, moved; the same bytes where it stays."""
         if not by.any():
             return self

@@ -3,24 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine import native
 from .facet_triangles import triangulate_facets
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .medial_axis import MedialAxis
+from .medial_axis import MedialAxis
 
 
-def polygon_triangles(
-    points: NDArray[np.float64],
-    face_offsets: NDArray[np.int32],
-    face_vertices: NDArray[np.int32],
-) -> NDArray[np.int32]:
+def polygon_triangles(points: Floats, face_offsets: Ints, face_vertices: Ints) -> Ints:
     """Return (c - 2 f, 3) int32 the triangles of polygon after polygon, each turning as its polygon does.
 
     Quads are cut as in Blender, larger polygons by their constrained Delaunay triangulation.
@@ -43,7 +34,7 @@ def polygon_triangles(
         return np.asarray(module.polygon_triangles(points, face_offsets, face_vertices))
 
 
-def axis_triangles(axis: MedialAxis) -> NDArray[np.int32]:
+def axis_triangles(axis: MedialAxis) -> Ints:
     """Return (c - 2 f, 3) int32 the triangles of facet after facet, each turning as its facet does.
 
     Polygons of a small medial mesh, which have no generators, need not be convex.

@@ -4,21 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .medial_axis import LevelValues, MedialAxis
+from ..arrays import Flags, Ints
+from .medial_axis import LevelValues, MedialAxis
 
 OF_VERTICES = ("exact", "exact_radius", "place", "crumb")  # fields of LevelValues
 
 
-def with_rows(
-    axis: MedialAxis, keep: NDArray[np.bool_], edges: NDArray[np.int32], limb: NDArray[np.float32]
-) -> MedialAxis:
+def with_rows(axis: MedialAxis, keep: Flags, edges: Ints, limb: NDArray[np.float32]) -> MedialAxis:
     """Return a level with some of its vertices.
 
     Parameters

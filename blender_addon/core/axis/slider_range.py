@@ -9,14 +9,13 @@ end to end on both.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats
 from .directions import facet_areas
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _BEYOND = 1.02  # this multiple of the largest length takes away everything
 _STEPS = 256  # the number of parts into which a share is divided
@@ -73,7 +72,7 @@ def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
     )
 
 
-def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
+def shown_areas(hierarchy: Any) -> Floats:
     """Return the areas of the facets of a hierarchy, (f,).
 
     Those that are never shown, because they are no thicker than the spacing of the samples, have none.
@@ -82,7 +81,7 @@ def shown_areas(hierarchy: Any) -> NDArray[np.float64]:
     return area * (hierarchy.facet_spacings > 1.0)
 
 
-def ranges_of(hierarchy: Any, area: NDArray[np.float64]) -> dict[str, SliderRange]:
+def ranges_of(hierarchy: Any, area: Floats) -> dict[str, SliderRange]:
     """Return the ranges of the four sliders, by the names of the settings; what takes nothing away has none.
 
     Sheets and their facets count by their area. A branch of wires counts by its length squared, for there are many

@@ -9,27 +9,23 @@ and can be drawn back to the wires within it: the topology is that of the wires.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..curves.net import chains
 from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
 from ..curves.through_forks import Way, ways_through
 from ..small_matrices import dot
-from .medial_axis import VORONOI
+from .medial_axis import VORONOI, MedialAxis
 from .rows_of_axis import OF_VERTICES, with_rows
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from .medial_axis import MedialAxis
-
-    Depth = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-    Inside = Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+Depth = Callable[[Floats], Floats]
+Inside = Callable[[Floats], Flags]
 
 _FARTHEST = 0.5  # a place moves by at most this share of the radius of its ball
 _NEAR = 0.25  # this many steps before and after a fork there is no place
@@ -56,9 +52,9 @@ class _Line:
     """
 
     chain: list[int]
-    at: NDArray[np.float64]
-    along: NDArray[np.float64]
-    points: NDArray[np.float64]
+    at: Floats
+    along: Floats
+    points: Floats
     through: tuple[bool, bool]
 
     @property
@@ -81,8 +77,8 @@ class _Places:
     """
 
     lines: list[_Line]
-    new: NDArray[np.float64]
-    old: NDArray[np.float64]
+    new: Floats
+    old: Floats
 
 
 def smooth_curve(axis: MedialAxis, depth: Depth, inside: Inside) -> MedialAxis:
@@ -139,11 +135,7 @@ def _rows(way: Way, wires: list[list[int]]) -> list[int]:
 
 
 def _pieces(
-    way: Way,
-    wires: list[list[int]],
-    row: list[int],
-    marks: NDArray[np.float64],
-    table: NDArray[np.float64],
+    way: Way, wires: list[list[int]], row: list[int], marks: Floats, table: Floats
 ) -> list[_Line]:
     """Return the lines of the wires of a way, of the lengths before its vertices and before its smooth places."""
     found, first, last = [], 0, len(way.wires) - 1
@@ -157,12 +149,7 @@ def _pieces(
     return found
 
 
-def _line(
-    chain: list[int],
-    marks: NDArray[np.float64],
-    table: NDArray[np.float64],
-    through: tuple[bool, bool],
-) -> _Line:
+def _line(chain: list[int], marks: Floats, table: Floats, through: tuple[bool, bool]) -> _Line:
     start, end = marks[[0, -1]].tolist()
     even = table[:, 0]
     apart = _NEAR * (even[1] - even[0])
@@ -180,7 +167,7 @@ def _places(axis: MedialAxis, lines: list[_Line], depth: Depth, inside: Inside) 
     """Return the places of lines; those that leave the solid are left out, and hold their ends."""
     before = np.column_stack((axis.vertices, axis.radius))
     old = _with_forks(before, lines, depth, inside)
-    drawn: dict[int, NDArray[np.float64]] = {}
+    drawn: dict[int, Floats] = {}
     left = [number for number, line in enumerate(lines) if len(line.at)]
     while left:
         tables = _drawn([lines[number] for number in left], old, before, depth)
@@ -199,16 +186,14 @@ def _places(axis: MedialAxis, lines: list[_Line], depth: Depth, inside: Inside) 
     return _Places([lines[number] for number in kept], new, old)
 
 
-def _all_inside(tables: list[NDArray[np.float64]], inside: Inside) -> list[bool]:
+def _all_inside(tables: list[Floats], inside: Inside) -> list[bool]:
     """Return for each table whether all of its places are in the solid; no table is empty."""
     firsts = np.cumsum([0, *(len(table) for table in tables[:-1])])
     found = inside(np.concatenate(tables)[:, :3])
     return np.logical_and.reduceat(found, firsts).tolist()
 
 
-def _with_forks(
-    before: NDArray[np.float64], lines: list[_Line], depth: Depth, inside: Inside
-) -> NDArray[np.float64]:
+def _with_forks(before: Floats, lines: list[_Line], depth: Depth, inside: Inside) -> Floats:
     """Return places and radii of vertices, (v, 4), with those through which lines go on these lines."""
     wanted = {}
     for line in lines:
@@ -225,9 +210,7 @@ def _with_forks(
     return after
 
 
-def _drawn(
-    lines: list[_Line], old: NDArray[np.float64], before: NDArray[np.float64], depth: Depth
-) -> list[NDArray[np.float64]]:
+def _drawn(lines: list[_Line], old: Floats, before: Floats, depth: Depth) -> list[Floats]:
     """Return places and radii of the new vertices of each line, (n, 4), whose ends are where vertices are now."""
     table = np.concatenate([_along(before, line) for line in lines])
     wanted = np.concatenate([_followed(line, old) for line in lines])
@@ -235,7 +218,7 @@ def _drawn(
     return np.split(moved, np.cumsum([len(line.at) for line in lines])[:-1])
 
 
-def _followed(line: _Line, old: NDArray[np.float64]) -> NDArray[np.float64]:
+def _followed(line: _Line, old: Floats) -> Floats:
     """Return the smooth places of new vertices, (n, 3), moved near the ends as far as these are from their places."""
     places = line.points[1:-1]
     length = line.along[-1]
@@ -292,19 +275,17 @@ def _with_vertices(axis: MedialAxis, places: _Places) -> MedialAxis:
     )
 
 
-def _along(table: NDArray[np.float64], line: _Line) -> NDArray[np.float64]:
+def _along(table: Floats, line: _Line) -> Floats:
     """Return places and radii of a wire at the new vertices of its line, (n, 4), of those of all vertices."""
     return at_marks(line.at, np.arange(len(line.chain), dtype=np.float64), table[line.chain])
 
 
-def _nearest(line: _Line) -> NDArray[np.int64]:
+def _nearest(line: _Line) -> Longs:
     """Return the vertex of the wire that is nearest along it to each new vertex of its line, (n,)."""
     return np.array(line.chain)[np.rint(line.at).astype(np.int64)]
 
 
-def _moved(
-    table: NDArray[np.float64], wanted: NDArray[np.float64], depth: Depth
-) -> NDArray[np.float64]:
+def _moved(table: Floats, wanted: Floats, depth: Depth) -> Floats:
     """Return places and radii, (n, 4), moved as far towards the wanted places as their balls allow.
 
     A radius changes by as much as the distance from the surface does, so it stays that of the ball at the faces or at
@@ -321,8 +302,8 @@ def _moved(
 
 
 def _edges_of(
-    axis: MedialAxis, lines: list[_Line], keep: NDArray[np.bool_]
-) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    axis: MedialAxis, lines: list[_Line], keep: Flags
+) -> tuple[Ints, NDArray[np.float32]]:
     """Return the edges with the lines in place of their wires, and their values; new vertices follow the old ones."""
     assert axis.level is not None
     row_of = {(min(a, b), max(a, b)): row for row, (a, b) in enumerate(axis.edges.tolist())}

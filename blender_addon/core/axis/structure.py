@@ -4,17 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..samples.analysed import AnalysedSamples
 from .spacing import spacing_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.analysed import AnalysedSamples
 
 SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
 JUNCTION, CORNER = 2, 4  # values of `Structure.kind` and `node_kind`
@@ -58,26 +55,26 @@ class Structure:
         The curves at each node, likewise.
     """
 
-    part: NDArray[np.int32]
-    turned: NDArray[np.bool_]
-    facet_edges: NDArray[np.int32]
-    seam: NDArray[np.int32]
-    curve: NDArray[np.int32]
-    kind: NDArray[np.int32]
-    part_patches: NDArray[np.int32]
-    part_area: NDArray[np.float64]
-    part_mean_radius: NDArray[np.float64]
-    part_least_radius: NDArray[np.float64]
-    curve_kind: NDArray[np.int32]
-    curve_length: NDArray[np.float64]
-    curve_mean_radius: NDArray[np.float64]
-    curve_least_radius: NDArray[np.float64]
-    curve_part_offsets: NDArray[np.int32]
-    curve_parts: NDArray[np.int32]
-    node_kind: NDArray[np.int32]
-    node_vertex: NDArray[np.int32]
-    node_curve_offsets: NDArray[np.int32]
-    node_curves: NDArray[np.int32]
+    part: Ints
+    turned: Flags
+    facet_edges: Ints
+    seam: Ints
+    curve: Ints
+    kind: Ints
+    part_patches: Ints
+    part_area: Floats
+    part_mean_radius: Floats
+    part_least_radius: Floats
+    curve_kind: Ints
+    curve_length: Floats
+    curve_mean_radius: Floats
+    curve_least_radius: Floats
+    curve_part_offsets: Ints
+    curve_parts: Ints
+    node_kind: Ints
+    node_vertex: Ints
+    node_curve_offsets: Ints
+    node_curves: Ints
 
     @property
     def parts(self) -> int:
@@ -92,12 +89,12 @@ class Structure:
         """Return the number of JUNCTION or CORNER nodes."""
         return int(np.count_nonzero(self.node_kind == kind))
 
-    def parts_at(self, curve: int) -> NDArray[np.int32]:
+    def parts_at(self, curve: int) -> Ints:
         """Return the parts at a curve."""
         start, end = self.curve_part_offsets[curve : curve + 2]
         return self.curve_parts[start:end]
 
-    def curves_at(self, node: int) -> NDArray[np.int32]:
+    def curves_at(self, node: int) -> Ints:
         """Return the curves at a node."""
         start, end = self.node_curve_offsets[node : node + 2]
         return self.node_curves[start:end]

@@ -3,15 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
+from ..samples.analysed import AnalysedSamples
 from ..settings import OPTIONS, Form, SidesFrom
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ..samples.analysed import AnalysedSamples
-    from .medial_axis import MedialAxis
+from .medial_axis import MedialAxis
 
 
 def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:

@@ -4,17 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .medial_axis import MedialAxis
+from ..arrays import Flags, Ints
+from .medial_axis import MedialAxis
 
 
-def with_facets_turned(axis: MedialAxis, which: NDArray[np.bool_]) -> MedialAxis:
+def with_facets_turned(axis: MedialAxis, which: Flags) -> MedialAxis:
     """Return the axis with the facets that (f,) bool marks turned round; the first corner stays.
 
     Their generators are exchanged, so every facet still turns counter-clockwise about the direction between them.
@@ -28,9 +25,7 @@ def with_facets_turned(axis: MedialAxis, which: NDArray[np.bool_]) -> MedialAxis
     )
 
 
-def turned_corners(
-    face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
-) -> NDArray[np.int32]:
+def turned_corners(face_offsets: Ints, face_vertices: Ints) -> Ints:
     """Return the corners of each polygon in reverse order after the same first corner."""
     first = np.repeat(face_offsets[:-1], np.diff(face_offsets))
     last = np.repeat(face_offsets[1:], np.diff(face_offsets))

@@ -4,18 +4,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING
 
+from ..samples.chosen import ChosenSamples
 from ..settings import SamplingMode
 from ..severe import Severe
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ..samples.chosen import ChosenSamples
-
 
 # A few words for the panel, by a part of the sentence that they stand for.
 _IN_SHORT = {

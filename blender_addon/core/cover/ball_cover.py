@@ -4,14 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..axis.levels import hierarchy_of
 from ..axis.medial_axis import no_edges
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
@@ -25,16 +28,11 @@ from ..settings import (
     Side,
     SidesFrom,
 )
+from ..shape.shape import Shape
 from ..shape.solid_faces import triangles_of_places
 from ..small_matrices import length_of
 from .capsule_segments import evenly, places_inside, segments_of
 from .tight_capsules import Capsules, tight_capsules
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..shape.shape import Shape
 
 # The shares of the work that are done before the hierarchy begins, before the balls are chosen, and before the segments
 # have capsules.
@@ -67,20 +65,20 @@ class Balls:
         The balls that are the ends of capsules; none for balls alone.
     """
 
-    centres: NDArray[np.float64]
-    radii: NDArray[np.float64]
+    centres: Floats
+    radii: Floats
     mode: CoverMode
     covered: float
     outside: float
     farthest: float
-    edges: NDArray[np.int32] = field(default_factory=no_edges)
+    edges: Ints = field(default_factory=no_edges)
 
-    def moved(self, by: NDArray[np.float64]) -> Balls:
+    def moved(self, by: Floats) -> Balls:
         """The balls, moved."""
         return replace(self, centres=self.centres + by) if by.any() else self
 
     @property
-    def single(self) -> NDArray[np.int32]:
+    def single(self) -> Ints:
         """The rows of balls that are no end of a capsule, ascending."""
         alone = np.ones(len(self.radii), np.bool_)
         alone[self.edges.ravel()] = False
@@ -127,7 +125,7 @@ class BallCover(OfChosenSamples):
 
     shape: Shape
     balls: Balls
-    shares: NDArray[np.float64]
+    shares: Floats
     places: int
     chosen: ChosenSamples
     warnings: tuple[str, ...]
@@ -189,7 +187,7 @@ def _balls_of(
     wanted: BallSettings,
     tolerance: float,
     progress: Progress,
-) -> tuple[Balls, NDArray[np.float64], int]:
+) -> tuple[Balls, Floats, int]:
     """Return balls, the shares that the first ones hold, and the number of places."""
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part(), places=True)
     progress.until(1.0)
@@ -207,7 +205,7 @@ def _capsules_of(
     wanted: BallSettings,
     tolerance: float,
     progress: Progress,
-) -> tuple[Balls, NDArray[np.float64], int]:
+) -> tuple[Balls, Floats, int]:
     """Return capsules that began as more balls, no shares, and the number of places."""
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part(), places=True)
     progress.until(_MANY)
@@ -234,9 +232,9 @@ def _capsules_of(
 
 
 def _cover_round(
-    ends: NDArray[np.float64],
-    radii: NDArray[np.float64] | None,
-    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+    ends: Floats,
+    radii: Floats | None,
+    surface: tuple[Floats, Ints],
     wanted: BallSettings,
     tolerance: float,
     progress: Progress,
@@ -262,12 +260,12 @@ def _volume_of(cover: Any) -> float:
 
 
 def _segments(
-    candidates: tuple[NDArray[np.float64], NDArray[np.float64]],
-    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+    candidates: tuple[Floats, Floats],
+    surface: tuple[Floats, Ints],
     chosen: ChosenSamples,
     wanted: BallSettings,
     progress: Progress,
-) -> tuple[NDArray[np.float64], list[Capsules]]:
+) -> tuple[Floats, list[Capsules]]:
     """Return segments for capsules, (n, 2, 3): those of more balls INSIDE than are wanted, which are merged.
 
     AROUND, there are also capsules that hold the samples, the vertices, and places inside.
@@ -320,14 +318,14 @@ def _closest_cover(
     return min(covers, key=lambda cover: cover.outside)
 
 
-def _balls(hierarchy: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _balls(hierarchy: Any) -> tuple[Floats, Floats]:
     """Return the balls of a `_medial.Hierarchy`: those that end at the faces, if it has any."""
     if len(hierarchy.place):
         return hierarchy.crisp_vertices, hierarchy.crisp_radius
     return hierarchy.vertices, hierarchy.radius
 
 
-def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[Floats, Ints]:
     """Return the boundary of the solid: the faces if they decide what is inside, else that of the inner cells."""
     if chosen.sides.source is SidesFrom.SURFACE:
         return shape.points, shape.triangles

@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _STEPS = 32  # between places of a segment whose depths are looked at
 _SMALLER = 1 / 256  # of the larger radius: capsule_fit.cpp may draw a capsule in by so much
@@ -19,9 +17,7 @@ _LARGER = 1.05  # than a ball at its end: as large, it may become that ball, or 
 _MANY = 4096  # segments at once
 
 
-def gaps(
-    places: NDArray[np.float64], ends: NDArray[np.float64], radii: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def gaps(places: Floats, ends: Floats, radii: Floats) -> Floats:
     """Return the distances of (n, 3) places from one capsule, (2, 3) and (2,), negative in it."""
     along, rise = ends[1] - ends[0], radii[1] - radii[0]
     length, away = length_of(along), places - ends[0]
@@ -38,11 +34,8 @@ def gaps(
 
 
 def fitting_radii(
-    ends: NDArray[np.float64],
-    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
-    tapered: bool,
-    progress: Any | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    ends: Floats, surface: tuple[Floats, Ints], tapered: bool, progress: Any | None = None
+) -> tuple[Floats, Flags]:
     """Return radii of capsules in a solid, (n, 2), and whether each is worth more than the balls at its ends, (n,).
 
     Parameters
@@ -65,11 +58,7 @@ def fitting_radii(
     )
 
 
-def _depths(
-    ends: NDArray[np.float64],
-    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
-    progress: Any | None,
-) -> NDArray[np.float64]:
+def _depths(ends: Floats, surface: tuple[Floats, Ints], progress: Any | None) -> Floats:
     """Return the distances from the surface at even places of each segment, (n, 33)."""
     share = np.linspace(0.0, 1.0, _STEPS + 1)[:, None]
     places = (1.0 - share) * ends[:, 0, None] + share * ends[:, 1, None]
@@ -78,9 +67,7 @@ def _depths(
     return np.asarray(away).reshape(len(ends), -1)
 
 
-def _fitting(
-    depths: NDArray[np.float64], ends: NDArray[np.float64], tapered: bool
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _fitting(depths: Floats, ends: Floats, tapered: bool) -> tuple[Floats, Flags]:
     """Return what `fitting_radii` does.
 
     A place where a segment crosses the surface is nearer than half a step to one that is looked at. A radius of more
@@ -101,7 +88,7 @@ def _fitting(
     return radii, whole & (_volume(length, radii) > _LARGER * ball)
 
 
-def _highest_below(depths: NDArray[np.float64]) -> NDArray[np.float64]:
+def _highest_below(depths: Floats) -> Floats:
     """Return the values at both ends, (n, 2), of the lines below all depths that are highest in the middle.
 
     Such a line touches the chord between a place before the middle and one after it that is lowest there.
@@ -121,7 +108,7 @@ def _highest_below(depths: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.column_stack([line, line + slope])
 
 
-def _volume(length: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float64]:
+def _volume(length: Floats, radii: Floats) -> Floats:
     """Return volumes as `Capsule::volume` has them, over pi / 3."""
     p, q = radii.T
     thick = np.maximum(p, q)

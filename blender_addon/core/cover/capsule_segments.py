@@ -5,22 +5,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints, Longs
 from ..machine.native import own_errors
+from ..machine.progress import Progress
 from ..small_matrices import dot
 from .capsule_fits import fitting_radii, gaps
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-
-    Element = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]  # see `_Merging`
-    Effect = tuple[NDArray[np.int64], NDArray[np.int8], NDArray[np.int8]]  # see `_effect`
-    Proposal = tuple[tuple[int, int], Element | None, Effect]
+Element = tuple[Floats, Floats, Longs]  # see `_Merging`
+Effect = tuple[Longs, NDArray[np.int8], NDArray[np.int8]]  # see `_effect`
+Proposal = tuple[tuple[int, int], Element | None, Effect]
 
 _NEAR = 10  # elements with which one may merge
 _IN_BOX = 1_000_000  # places of a lattice that are looked at, at most
@@ -45,12 +42,12 @@ class Witnesses:
         What it costs to leave it.
     """
 
-    places: NDArray[np.float64]
-    reach: NDArray[np.float64]
-    weight: NDArray[np.float64]
+    places: Floats
+    reach: Floats
+    weight: Floats
 
     @staticmethod
-    def of(inside: NDArray[np.float64], surface: NDArray[np.float64], bound: float) -> Witnesses:
+    def of(inside: Floats, surface: Floats, bound: float) -> Witnesses:
         """A place on the surface that is farther than the bound costs more than all places inside."""
         places = np.concatenate([inside, surface])
         order = np.argsort(places[:, 0], kind="stable")
@@ -58,7 +55,7 @@ class Witnesses:
         weight = np.where(is_surface, 1.0 + len(inside), 1.0)
         return Witnesses(places[order], np.where(is_surface, bound, 0.0), weight)
 
-    def held(self, ends: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.int64]:
+    def held(self, ends: Floats, radii: Floats) -> Longs:
         """Return the rows of places that one capsule, (2, 3) and (2,), is near enough to, ascending."""
         margin = radii.max() + self.reach.max(initial=0.0)
         low, high = ends.min(axis=0) - margin, ends.max(axis=0) + margin
@@ -69,14 +66,12 @@ class Witnesses:
         return near[gaps(self.places[near], ends, radii) <= self.reach[near]]
 
 
-def evenly(places: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def evenly(places: Floats, count: int) -> Floats:
     """Return at most so many of the places, one in each so many rows."""
     return places[:: max(1, -(-len(places) // count))]
 
 
-def places_inside(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int32], count: int
-) -> NDArray[np.float64]:
+def places_inside(vertices: Floats, triangles: Ints, count: int) -> Floats:
     """Return about so many places of a cubic lattice in a solid; fewer if its box is very much larger than it."""
     low, size = vertices.min(axis=0), np.ptp(vertices, axis=0)
     a, b, c = np.moveaxis(vertices[triangles] - low, 1, 0)
@@ -87,7 +82,7 @@ def places_inside(
         return places[np.asarray(module.winding_number(places, vertices, triangles)) > 0.5]
 
 
-def lattice(size: list[float], step: float) -> NDArray[np.float64]:
+def lattice(size: list[float], step: float) -> Floats:
     """Return the places of a lattice in a box at 0, with about this step."""
     steps = _steps(size, step)
     axes = [(np.arange(n) + 0.5) * (length / n) for n, length in zip(steps, size, strict=True)]
@@ -147,7 +142,7 @@ class _Changes:
         self._owner, self._place = self._owner[kept], self._place[kept]
         self._need, self._sign = self._need[kept], self._sign[kept]
 
-    def cheapest(self, holders: NDArray[np.int32], weight: NDArray[np.float64]) -> int:
+    def cheapest(self, holders: Ints, weight: Floats) -> int:
         """Return the row of the change that loses least, of equal ones the first."""
         acts = holders[self._place] == self._need
         loss = np.where(acts, self._sign * weight[self._place], 0.0)
@@ -160,9 +155,9 @@ class _Merging:
 
     def __init__(
         self,
-        centres: NDArray[np.float64],
-        radii: NDArray[np.float64],
-        surface: tuple[NDArray[np.float64], NDArray[np.int32]],
+        centres: Floats,
+        radii: Floats,
+        surface: tuple[Floats, Ints],
         witnesses: Witnesses,
         tapered: bool,
         progress: Progress | None,
@@ -214,7 +209,7 @@ class _Merging:
             proposals.append((pair, (ends[row], radii[row], held), self._effect(i, j, held)))
         self._changes.add(proposals)
 
-    def _near(self, row: int) -> NDArray[np.int64]:
+    def _near(self, row: int) -> Longs:
         """Return the elements that are nearest by the distance between balls at ends."""
         rows = np.flatnonzero(self.lives)
         away = self.ends[rows, :, None] - self.ends[row]
@@ -235,7 +230,7 @@ class _Merging:
         owner = np.repeat(np.arange(len(pairs))[:, None], 4, axis=1)
         return owner[~twice], ends[~twice]
 
-    def _effect(self, i: int, j: int, held: NDArray[np.int64]) -> Effect:
+    def _effect(self, i: int, j: int, held: Longs) -> Effect:
         """Return places, how many elements must hold each for it to change, and 1 if it is lost, -1 if gained."""
         before = np.concatenate([self._held[i], self._held[j]]) if i != j else self._held[i]
         before, holders = np.unique(before, return_counts=True)
@@ -261,15 +256,15 @@ class _Merging:
 
 
 def segments_of(
-    centres: NDArray[np.float64],
-    radii: NDArray[np.float64],
+    centres: Floats,
+    radii: Floats,
     count: int,
-    surface: tuple[NDArray[np.float64], NDArray[np.int32]],
-    places: tuple[NDArray[np.float64], NDArray[np.float64]],
+    surface: tuple[Floats, Ints],
+    places: tuple[Floats, Floats],
     bound: float,
     tapered: bool,
     progress: Progress | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return few capsules that hold most of what many balls do.
 
     Two elements, balls or capsules, become one capsule from an end of one to an end of the other, or one of them is

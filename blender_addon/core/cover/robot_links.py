@@ -4,18 +4,15 @@ MuJoCo's MJCF."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from ..arrays import Floats
 from ..files.rows_of_text import write_rows
 from ..portable_angle import angle_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .ball_cover import Balls
+from .ball_cover import Balls
 
 
 def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
@@ -54,12 +51,12 @@ def write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
     _write(stream, "    </body>\n  </worldbody>\n</mujoco>\n")
 
 
-def _capsules(balls: Balls) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _capsules(balls: Balls) -> tuple[Floats, Floats]:
     """Return (m, 2, 3) ends of the capsules and (m,) radii."""
     return balls.centres[balls.edges], balls.radii[balls.edges[:, 0]]
 
 
-def _cylinders(ends: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+def _cylinders(ends: Floats) -> tuple[Floats, ...]:
     """Return middles, two angles and lengths of the cylinders between pairs of places.
 
     The axis of a cylinder is Z, which turns about Y by the first angle, then about Z by the second one.

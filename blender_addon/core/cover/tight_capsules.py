@@ -4,17 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
 from .capsule_fits import gaps
 from .capsule_segments import cube_root, evenly, lattice
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 _ROUNDS = 8  # of places that go to the capsule nearest to them, at most
 _MOST_DIVIDED = 16  # more capsules are at least as tight where balls were merged
 _NEAR = 6  # capsules with which one may be united
@@ -36,12 +34,12 @@ class Capsules:
         The capsule of each place, where they were made round places.
     """
 
-    ends: NDArray[np.float64]
-    radii: NDArray[np.float64]
-    group: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, np.int32))
+    ends: Floats
+    radii: Floats
+    group: Ints = field(default_factory=lambda: np.empty(0, np.int32))
 
     @staticmethod
-    def round(places: NDArray[np.float64], group: NDArray[np.int32], tapered: bool) -> Capsules:
+    def round(places: Floats, group: Ints, tapered: bool) -> Capsules:
         """Make the least capsule of each group; groups that have no place go."""
         kept, group = np.unique(group, return_inverse=True)
         group = group.astype(np.int32)
@@ -49,7 +47,7 @@ class Capsules:
             ends, radii = module.least_capsules(places, group, count=len(kept), tapered=tapered)
         return Capsules(ends.reshape(-1, 2, 3), radii.reshape(-1, 2), group)
 
-    def nearest(self, places: NDArray[np.float64]) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    def nearest(self, places: Floats) -> tuple[Ints, Floats]:
         """Return the nearest capsule of each place, and how far it is; negative inside."""
         nearest = np.zeros(len(places), np.int32)
         least = np.full(len(places), np.inf)
@@ -85,10 +83,7 @@ class Capsules:
 
 
 def tight_capsules(
-    places: NDArray[np.float64],
-    count: int,
-    tapered: bool,
-    start: tuple[NDArray[np.float64], NDArray[np.float64]],
+    places: Floats, count: int, tapered: bool, start: tuple[Floats, Floats]
 ) -> list[Capsules]:
     """Return one or two choices of at most so many capsules that hold all places and whose union has little volume.
 
@@ -111,7 +106,7 @@ def tight_capsules(
     return [_settled(places, one.nearest(places)[0], tapered) for one in begun]
 
 
-def _divided(places: NDArray[np.float64], count: int, tapered: bool) -> Capsules:
+def _divided(places: Floats, count: int, tapered: bool) -> Capsules:
     """Return capsules of the parts into which places are divided, one after the other, twice as many as are wanted."""
     parts = [_Part.of(places, np.arange(len(places)), tapered)]
     while len(parts) < 2 * count:
@@ -123,9 +118,7 @@ def _divided(places: NDArray[np.float64], count: int, tapered: bool) -> Capsules
     return _shifted(places, _united(places, [part.rows for part in parts], count, tapered), tapered)
 
 
-def _united(
-    places: NDArray[np.float64], parts: list[NDArray[np.int64]], count: int, tapered: bool
-) -> list[NDArray[np.int64]]:
+def _united(places: Floats, parts: list[Longs], count: int, tapered: bool) -> list[Longs]:
     """Return parts after the two whose union adds least volume have become one, until there are so many."""
     added: dict[tuple[int, int], float] = {}
     names = list(range(len(parts)))
@@ -148,9 +141,7 @@ def _united(
     return parts
 
 
-def _shifted(
-    places: NDArray[np.float64], parts: list[NDArray[np.int64]], tapered: bool
-) -> Capsules:
+def _shifted(places: Floats, parts: list[Longs], tapered: bool) -> Capsules:
     """Return capsules after the border between each two has moved as long as they became smaller."""
     parts = list(parts)
     found = _of_parts(places, parts, tapered)
@@ -161,7 +152,7 @@ def _shifted(
     return _of_parts(places, parts, tapered)
 
 
-def _shifted_border(places: NDArray[np.float64], first: int, tapered: bool) -> NDArray[np.int32]:
+def _shifted_border(places: Floats, first: int, tapered: bool) -> Ints:
     """Return the better group of each place; the first ones begin in the first group."""
     best = Capsules.round(places, (np.arange(len(places)) >= first).astype(np.int32), tapered)
     least, part = best.volume(), 0.5
@@ -182,9 +173,7 @@ def _shifted_border(places: NDArray[np.float64], first: int, tapered: bool) -> N
     return best.group
 
 
-def _of_parts(
-    places: NDArray[np.float64], parts: list[NDArray[np.int64]], tapered: bool
-) -> Capsules:
+def _of_parts(places: Floats, parts: list[Longs], tapered: bool) -> Capsules:
     """Return the least capsule of each part."""
     rows = np.concatenate(parts)
     group = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part) for part in parts])
@@ -195,12 +184,12 @@ def _of_parts(
 class _Part:
     """Rows of places, the two groups into which they are best divided, and the volume that this saves."""
 
-    rows: NDArray[np.int64]
-    halves: tuple[NDArray[np.int64], NDArray[np.int64]]
+    rows: Longs
+    halves: tuple[Longs, Longs]
     saved: float
 
     @staticmethod
-    def of(places: NDArray[np.float64], rows: NDArray[np.int64], tapered: bool) -> _Part:
+    def of(places: Floats, rows: Longs, tapered: bool) -> _Part:
         part = places[rows]
         whole = Capsules.round(part, np.zeros(len(part), np.int32), tapered)
         tried = [
@@ -213,7 +202,7 @@ class _Part:
         return _Part(rows, halves, whole.volume() - min(volumes) if len(halves[1]) else 0.0)
 
 
-def _directions(along: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+def _directions(along: Floats) -> list[Floats]:
     """Return a direction and four that are perpendicular to it, evenly turned."""
     length = length_of(along)
     along = along / length if length > 0.0 else np.array([1.0, 0.0, 0.0])
@@ -223,9 +212,7 @@ def _directions(along: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     return [along, aside, third, aside + third, aside - third]
 
 
-def _divided_along(
-    places: NDArray[np.float64], way: NDArray[np.float64], tapered: bool
-) -> Capsules:
+def _divided_along(places: Floats, way: Floats, tapered: bool) -> Capsules:
     """Divide places in the middle of their extent along a direction, then a few times by the nearer capsule."""
     height = dot(places, way)
     group = (height > (height.min() + height.max()) / 2.0).astype(np.int32)
@@ -235,7 +222,7 @@ def _divided_along(
     return found
 
 
-def _settled(places: NDArray[np.float64], group: NDArray[np.int32], tapered: bool) -> Capsules:
+def _settled(places: Floats, group: Ints, tapered: bool) -> Capsules:
     """Return capsules after places have gone to the nearest one, and these were made anew, while they shrink."""
     best = Capsules.round(places, group, tapered)
     least = best.volume()

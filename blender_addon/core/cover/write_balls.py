@@ -9,8 +9,9 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
+from ..arrays import Floats
 from ..errors import ExportError
 from ..files.extensions import extension_of
 from ..files.json_figures import known
@@ -21,14 +22,8 @@ from ..small_matrices import times
 from .ball_cover import Balls
 from .robot_links import write_mjcf, write_urdf
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
-
-def export_balls(
-    balls: Balls, path: str | os.PathLike, transform: NDArray[np.float64] | None = None
-) -> Path:
+def export_balls(balls: Balls, path: str | os.PathLike, transform: Floats | None = None) -> Path:
     """Write balls; the extension of `path` chooses the format.
 
     Parameters
@@ -60,7 +55,7 @@ def ball_format(path: str | os.PathLike) -> Callable[[Balls, str, BinaryIO], Non
     return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
 
 
-def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
+def _placed(balls: Balls, transform: Floats) -> Balls:
     """Return the balls in world coordinates."""
     if is_identity(transform):
         return balls

@@ -3,10 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 
 def on_loops(ends: Mapping[int, tuple[int, int]], at: Mapping[int, Iterable[int]]) -> list[int]:

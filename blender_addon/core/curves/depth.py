@@ -3,20 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..samples.analysed import AnalysedSamples
 from ..shape.nearness import nearest
+from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.analysed import AnalysedSamples
-    from ..shape.shape import Shape
 
 _ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
 
@@ -35,7 +30,7 @@ class Depth:
 
     def __init__(self, samples: AnalysedSamples, shape: Shape | None) -> None:
         self._samples = samples.points[samples.analysis.samples]
-        self._faces: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None
+        self._faces: tuple[Floats, Ints] | None = None
         self._offset = samples.offset
         if shape is not None and len(shape.triangles):
             kept = shape.triangles
@@ -43,7 +38,7 @@ class Depth:
                 kept = kept[~buried_faces(shape.points, kept)]
             self._faces = (shape.points, kept) if len(kept) else None
 
-    def __call__(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    def __call__(self, places: Floats) -> Floats:
         """Return the distances of (n, 3) places from the boundary, (n,), without a sign."""
         if self._faces is None or not len(places):
             away = places - self._samples[nearest(places, self._samples)]
@@ -54,7 +49,7 @@ class Depth:
         return np.maximum(found - self._offset, 0.0)
 
 
-def buried_faces(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
+def buried_faces(points: Floats, triangles: Ints) -> Flags:
     """Return which triangles have the solid, or nothing of it, on both sides at their centre and near all corners."""
     corners = points[triangles]
     normals, _ = unit_normals(corners)

@@ -10,16 +10,12 @@ opening and the surface.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .net import Net
+from .net import Net
 
 _AS_FAR = (
     0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
@@ -41,12 +37,12 @@ class Balls:
         The balls of point i are the rows first[i] : first[i + 1].
     """
 
-    centre: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    sample: NDArray[np.int64]
-    first: NDArray[np.int64]
+    centre: Floats
+    radius: Floats
+    sample: Longs
+    first: Longs
 
-    def of(self, points: list[int]) -> NDArray[np.int64]:
+    def of(self, points: list[int]) -> Longs:
         """Return the rows of the balls of some points."""
         starts, ends = self.first[points], self.first[np.array(points, np.int64) + 1]
         counts = ends - starts
@@ -54,13 +50,7 @@ class Balls:
         return np.arange(int(counts.sum())) + np.repeat(starts - before, counts)
 
 
-def balls_of(
-    owner: NDArray[np.int64],
-    centre: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    sample: NDArray[np.int64],
-    count: int,
-) -> Balls:
+def balls_of(owner: Longs, centre: Floats, radius: Floats, sample: Longs, count: int) -> Balls:
     """Return the balls sorted by owner. All arrays have one row for each ball; `count` points may own them."""
     order = np.argsort(owner, kind="stable")
     first = np.zeros(count + 1, np.int64)
@@ -77,9 +67,7 @@ def reach_of(net: Net, name: int, balls: Balls) -> float:
     return float(far.max()) if len(rows) else float(tip)
 
 
-def _reaches(
-    balls: Balls, rows: NDArray[np.int64], base: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _reaches(balls: Balls, rows: Longs, base: Floats) -> Floats:
     """Return how far balls reach from a point in the mean direction of their centres."""
     away = balls.centre[rows] - base
     along = away.sum(axis=0)
@@ -87,9 +75,7 @@ def _reaches(
     return dot(away, along / far) + balls.radius[rows]
 
 
-def end_limbs(
-    net: Net, owner: NDArray[np.int64], balls: Balls, tips: list[int] | None = None
-) -> NDArray[np.int64]:
+def end_limbs(net: Net, owner: Longs, balls: Balls, tips: list[int] | None = None) -> Longs:
     """Move the end of each limb to its largest ball that reaches farthest.
 
     Parameters
@@ -113,7 +99,7 @@ def end_limbs(
     return owner
 
 
-def _end(net: Net, tip: int, owner: NDArray[np.int64], balls: Balls) -> None:
+def _end(net: Net, tip: int, owner: Longs, balls: Balls) -> None:
     (name,) = net.at[tip]
     chain = net.branches[name]
     chain = chain if chain[-1] == tip else chain[::-1]
@@ -138,7 +124,7 @@ def _start_of_end(net: Net, chain: list[int]) -> int:
 
 
 def _lead_to(
-    net: Net, name: int, chain: list[int], start: int, place: NDArray[np.float64], radius: float
+    net: Net, name: int, chain: list[int], start: int, place: Floats, radius: float
 ) -> None:
     """Move the tip of a chain, and lead the chain straight to it from the nearest of the points after `start`."""
     away = np.linalg.norm(net.points[chain[start:-1]] - place, axis=1)

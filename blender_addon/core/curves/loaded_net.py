@@ -3,21 +3,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats, Longs
+from ..samples.analysed import AnalysedSamples
+from .ends import Balls
 from .net import Net
 from .owners import owners, shares
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import NDArray
-
-    from ..samples.analysed import AnalysedSamples
-    from .ends import Balls
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +33,9 @@ class LoadedNet:
     """
 
     net: Net
-    owner: NDArray[np.int64]
+    owner: Longs
     balls: Balls
-    spacing: NDArray[np.float64]
+    spacing: Floats
 
 
 def loaded_net(
@@ -74,9 +70,7 @@ def genuine_loops(samples: AnalysedSamples) -> int:
     return 0 if samples.by_faces is None else samples.by_faces[1]
 
 
-def _mean_of_owned(
-    owner: NDArray[np.int64], values: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
+def _mean_of_owned(owner: Longs, values: Floats, count: int) -> Floats:
     """Return the mean value of the samples that each point owns, (count,); a point without samples gets that of all."""
     owned = np.bincount(owner, minlength=count)
     total = np.bincount(owner, weights=values, minlength=count)

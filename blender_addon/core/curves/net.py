@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import NDArray
+from ..arrays import Flags, Floats, Ints, Longs
 
 
 class Net:
@@ -45,11 +42,11 @@ class Net:
 
     def __init__(
         self,
-        points: NDArray[np.float64],
-        radius: NDArray[np.float64],
-        wires: NDArray[np.int32],
-        singles: NDArray[np.int32],
-        load: NDArray[np.float64],
+        points: Floats,
+        radius: Floats,
+        wires: Ints,
+        singles: Ints,
+        load: Floats,
         anchored: Iterable[int] = (),
     ) -> None:
         self.points, self.radius, self.load = points.copy(), radius.copy(), load.copy()
@@ -112,7 +109,7 @@ class Net:
         """Return the load of a leaf without its fork."""
         return float(self.load[self.from_fork(name)[1:]].sum())
 
-    def stands_for(self) -> NDArray[np.int64]:
+    def stands_for(self) -> Longs:
         """Return the remaining point that has replaced each point, (p,)."""
         target = self.moved
         while not np.array_equal(target, target[target]):
@@ -153,7 +150,7 @@ class Net:
         way = [*kept, tip]
         self.branches[name] = way if chain[0] == way[0] else way[::-1]
 
-    def insert(self, name: int, at: int, place: NDArray[np.float64], radius: float) -> int:
+    def insert(self, name: int, at: int, place: Floats, radius: float) -> int:
         """Add a point to a branch before the one at position `at`, which is not its first, and return its row."""
         row = len(self.points)
         self.points = np.concatenate((self.points, place[None]))
@@ -264,7 +261,7 @@ class Net:
         self.add([*first, *second[1:]])
 
 
-def chains(wires: NDArray[np.int32], count: int, ends: Iterable[int] = ()) -> list[list[int]]:
+def chains(wires: Ints, count: int, ends: Iterable[int] = ()) -> list[list[int]]:
     """Return edges as chains between vertices whose degree is not 2, then as loops; both ascend by their start.
 
     Chains also end at the vertices `ends`.
@@ -285,11 +282,7 @@ def chains(wires: NDArray[np.int32], count: int, ends: Iterable[int] = ()) -> li
 
 
 def _walked(
-    start: int,
-    edge: int,
-    edges_at: list[list[tuple[int, int]]],
-    inner: NDArray[np.bool_],
-    used: NDArray[np.bool_],
+    start: int, edge: int, edges_at: list[list[tuple[int, int]]], inner: Flags, used: Flags
 ) -> list[int]:
     """Return the vertices from a vertex through an edge to the next node, or around a loop."""
     chain = [start]

@@ -3,22 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Longs
 from ..machine import native
+from ..samples.analysed import AnalysedSamples
 from ..shape.nearness import nearest
 from .ends import Balls, balls_of
 from .spread import graph_of, spread
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-    from ..samples.analysed import AnalysedSamples
-
-
-def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:
+def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[Longs, Balls]:
     """Return the point that owns each sample, and the balls of the samples that each point owns.
 
     Parameters
@@ -51,7 +48,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArra
     return owner, balls_of(owner[touched], *found, touched, len(rows))
 
 
-def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArray[np.int64]:
+def _of_the_nearest(owner: Longs, samples: AnalysedSamples) -> Longs:
     """Return the owners; a sample without one gets that of the nearest sample along Delaunay edges."""
     edges = samples.analysis.edges
     edges = edges[(owner[edges] < 0).any(axis=1)]
@@ -60,7 +57,7 @@ def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArr
     return np.where(owner >= 0, owner, across)
 
 
-def at_openings(samples: AnalysedSamples, hierarchy: Any) -> NDArray[np.bool_]:
+def at_openings(samples: AnalysedSamples, hierarchy: Any) -> Flags:
     """Return which vertices of the hierarchy, (v,), are balls that touch a sample which closes an opening."""
     found = np.zeros(len(hierarchy.vertices), bool)
     if samples.closing:
@@ -70,7 +67,7 @@ def at_openings(samples: AnalysedSamples, hierarchy: Any) -> NDArray[np.bool_]:
     return found
 
 
-def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
+def largest_balls(hierarchy: Any, count: int) -> Longs:
     """Return the vertex of the hierarchy with the largest ball that touches each sample, (n,), or -1."""
     offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
     ball = np.full(count, -1, np.int64)
@@ -91,7 +88,7 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     return ball
 
 
-def shares(samples: AnalysedSamples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def shares(samples: AnalysedSamples) -> tuple[Floats, Floats]:
     """Return the spacing around each sample, (n,), and its share of the surface, (n,); both are 0 for duplicates.
 
     At sharp edges and isolated samples the umbrella may be as large as the solid, so the spacing is limited to three

@@ -3,22 +3,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain as joined
 from itertools import islice, pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Longs
+from .loaded_net import LoadedNet
+from .net import Net
 from .rules import Loops, cut_loops, drop_leaves, fill_loops
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from numpy.typing import NDArray
-
-    from .loaded_net import LoadedNet
-    from .net import Net
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +31,12 @@ class Removals:
         The number of removals.
     """
 
-    edges: NDArray[np.int64]
-    born: NDArray[np.int64]
-    gone: NDArray[np.int64]
+    edges: Longs
+    born: Longs
+    gone: Longs
     count: int
 
-    def after(self, number: int) -> NDArray[np.int64]:
+    def after(self, number: int) -> Longs:
         """Return the edges after a number of removals, (w, 2)."""
         return self.edges[(self.born <= number) & (number < self.gone)]
 

@@ -17,22 +17,16 @@ There are two rules for loops and one for branches:
 from __future__ import annotations
 
 import heapq
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..small_matrices import length_of
 from .bridges import on_loops
-from .ends import reach_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from .ends import Balls
-    from .net import Net
+from .ends import Balls, reach_of
+from .net import Net
 
 THIN = 2.0  # a loop is cut if it is thinner than this many spacings
 REACH = 1.6  # a limb reaches at least this many radii of the ball at its fork from the centre of that ball
@@ -46,7 +40,7 @@ class Loops:
     filled: int
 
 
-def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loops:
+def clear_loops(net: Net, spacing: Floats, genuine: int = 0) -> Loops:
     """Cut and fill the small loops, the thinnest first.
 
     Parameters
@@ -61,14 +55,14 @@ def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loo
     return Loops(cut, sum(1 for _ in fill_loops(net, spacing, genuine)))
 
 
-def cut_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
+def cut_loops(net: Net, spacing: Floats, genuine: int) -> Iterator[None]:
     """Cut a loop of limbs that touch at each step, the thinnest first; the arguments are those of `clear_loops`."""
     while net.loops() > genuine and (name := _thinnest_of_loops(net, spacing)) is not None:
         net.cut(name, _neck(net, name, spacing))
         yield
 
 
-def _neck(net: Net, name: int, spacing: NDArray[np.float64]) -> range:
+def _neck(net: Net, name: int, spacing: Floats) -> range:
     """Return the positions on a branch that go: those around its thinnest one that are thinner than THIN.
 
     What is left of the branch goes as well where it hardly leaves the ball at its node, as half a rung does.
@@ -90,7 +84,7 @@ def _leaves_ball(net: Net, node: int, tip: int) -> bool:
     return bool(reach >= REACH * net.radius[node])
 
 
-def fill_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
+def fill_loops(net: Net, spacing: Floats, genuine: int) -> Iterator[None]:
     """Fill a pinhole at each step; the arguments are those of `clear_loops`."""
     while net.loops() > genuine and (found := _pinhole(net, spacing)) is not None:
         net.contract(*found)
@@ -179,7 +173,7 @@ def is_limb(net: Net, name: int, share: float, balls: Balls) -> bool:
 # --- loops
 
 
-def _thinnest_of_loops(net: Net, spacing: NDArray[np.float64]) -> int | None:
+def _thinnest_of_loops(net: Net, spacing: Floats) -> int | None:
     """Return the branch of a loop with the thinnest neck in spacings, or None if no neck is thinner than THIN."""
     necks = []
     for name in _on_loops(net):
@@ -190,7 +184,7 @@ def _thinnest_of_loops(net: Net, spacing: NDArray[np.float64]) -> int | None:
     return min(necks)[1] if necks else None
 
 
-def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | None:
+def _pinhole(net: Net, spacing: Floats) -> tuple[list[int], int] | None:
     """Return the branches of a loop within one spacing of its largest ball, and the point of that ball; or None."""
     for name in _on_loops(net):
         loop = _shortest_loop(net, name)

@@ -10,14 +10,12 @@ one twice as long 0.4 %.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _PER_RADIUS = 8  # a mean radius has this many steps
 _LEAST, _MOST = 16, 16_384  # a line has this many
@@ -51,18 +49,16 @@ class SmoothLine:
         curvature is close to 0.
     """
 
-    share: NDArray[np.float64]
-    points: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    tangent: NDArray[np.float64]
+    share: Floats
+    points: Floats
+    radius: Floats
+    tangent: Floats
     length: float
-    curvature: NDArray[np.float64]
-    torsion: NDArray[np.float64]
+    curvature: Floats
+    torsion: Floats
 
 
-def smooth_line(
-    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
-) -> SmoothLine | None:
+def smooth_line(points: Floats, radius: Floats, closed: bool) -> SmoothLine | None:
     """Return a line without the noise of its points, or None if its length is 0 or no number.
 
     Parameters
@@ -115,14 +111,12 @@ class Course:
         The line has no ends.
     """
 
-    points: NDArray[np.float64]
-    radius: NDArray[np.float64]
+    points: Floats
+    radius: Floats
     closed: bool
 
 
-def smooth_between(
-    lines: list[Course],
-) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+def smooth_between(lines: list[Course]) -> list[tuple[Floats, Floats]]:
     """Return shares and places of smooth lines in even steps, whose ends are those of the given lines.
 
     Beyond each end a line continues as its own image in the end, so the end stays and its direction is free.
@@ -148,9 +142,7 @@ def smooth_between(
     return found
 
 
-def _longer(
-    line: Course,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _longer(line: Course) -> tuple[Floats, Floats, Floats]:
     """Return shares of a line in even steps, (n,), and places, (m, 3), and steps, (m,), also beyond its ends.
 
     Places are relative to the first point.
@@ -171,7 +163,7 @@ def _longer(
     return share, table, np.concatenate((steps[before], steps, steps[after]))
 
 
-def _shorter(line: Course, places: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def _shorter(line: Course, places: Floats, count: int) -> Floats:
     """Return the places between the ends of a line, (count, 3)."""
     reach = (len(places) - count) // 2
     between = places[reach : reach + count] + line.points[0]
@@ -182,21 +174,19 @@ def _shorter(line: Course, places: NDArray[np.float64], count: int) -> NDArray[n
     return between
 
 
-def marks_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def marks_of(points: Floats) -> Floats:
     """Return the length of a line before each of its points, (n,)."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return np.concatenate(([0.0], np.cumsum(steps)))
 
 
-def mean_along(marks: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+def mean_along(marks: Floats, values: Floats) -> float:
     """Return the mean of values at the points of a line, with even weight for even lengths."""
     steps = np.diff(marks)
     return float((steps * (values[1:] + values[:-1])).sum() / (2.0 * marks[-1]))
 
 
-def even_places(
-    marks: NDArray[np.float64], points: NDArray[np.float64], radius: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def even_places(marks: Floats, points: Floats, radius: Floats) -> tuple[Floats, Floats]:
     """Return shares of the length of a line in even steps, (n,), and places and radii there, (n, 4)."""
     length = float(marks[-1])
     mean = max(mean_along(marks, radius), length / _MOST)
@@ -205,14 +195,12 @@ def even_places(
     return share, at_marks(share * length, marks, np.column_stack((points, radius)))
 
 
-def at_marks(
-    wanted: NDArray[np.float64], marks: NDArray[np.float64], table: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def at_marks(wanted: Floats, marks: Floats, table: Floats) -> Floats:
     """Return the columns of a table, (n, k), of values at some marks, in between at other marks."""
     return np.column_stack([np.interp(wanted, marks, column) for column in table.T])
 
 
-def smoothed(places: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
+def smoothed(places: Floats, steps: Floats) -> Floats:
     """Return smooth places, as many as are given, for at least 5 places in even steps, of one line or of many.
 
     Parameters
@@ -237,7 +225,7 @@ def smoothed(places: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray
     return _solved(rows, [list(column) for column in np.moveaxis(places.copy(), 1, 0)])
 
 
-def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> NDArray[np.float64]:
+def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> Floats:
     """Return what symmetric band matrices turn into the wanted tables, by Cholesky's method without roots.
 
     Row j of `bands` has the entries (j, j), (j + 1, j), and so on; those beyond the matrix are 0. NumPy has no such
@@ -272,9 +260,7 @@ def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> NDArray[np.floa
     return np.moveaxis(np.array(columns), 1, 0)
 
 
-def _bends(
-    points: NDArray[np.float64], step: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _bends(points: Floats, step: float) -> tuple[Floats, Floats, Floats]:
     """Return unit tangents, curvatures and torsions by differences; two places at each end have those of the third."""
     a, b, c, d, e = (points[i : len(points) - 4 + i] for i in range(5))
     first = (a - e + 8.0 * (d - b)) / (12.0 * step)

@@ -4,15 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..small_matrices import dot
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # The front advances by this many mean edge lengths at a time; small steps reach few vertices twice.
 _STEP = 2.0
@@ -22,12 +19,12 @@ _STEP = 2.0
 class Graph:
     """A graph lists edges by vertex: those of vertex v are the rows first[v] : first[v + 1] of `to` and `length`."""
 
-    first: NDArray[np.int64]
-    to: NDArray[np.int64]
-    length: NDArray[np.float64]
+    first: Longs
+    to: Longs
+    length: Floats
 
 
-def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
+def graph_of(points: Floats, edges: Ints) -> Graph:
     """Return the graph of (e, 2) edges between (n, 3) points, with their lengths in space."""
     ends = np.ascontiguousarray(edges.T)
     along = points[ends[0]] - points[ends[1]]
@@ -48,11 +45,8 @@ def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
 
 
 def spread(
-    graph: Graph,
-    seeds: NDArray[np.int64],
-    labels: NDArray[np.int64],
-    within: float = np.inf,
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    graph: Graph, seeds: Longs, labels: Longs, within: float = np.inf
+) -> tuple[Longs, Floats]:
     """Return the label of the nearest seed of each vertex, and its distance.
 
     Parameters
@@ -92,9 +86,7 @@ def spread(
     return label, distance
 
 
-def _best(
-    front: NDArray[np.int64], at: NDArray[np.float64], marks: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+def _best(front: Longs, at: Floats, marks: Longs) -> tuple[Longs, Floats, Longs]:
     """Return each vertex of the front once, with its smallest distance and then its lowest label."""
     order = np.lexsort((marks, at, front))
     front, at, marks = front[order], at[order], marks[order]
@@ -103,16 +95,14 @@ def _best(
     return front[first], at[first], marks[first]
 
 
-def _edges_of(
-    graph: Graph, vertices: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _edges_of(graph: Graph, vertices: Longs) -> tuple[Longs, Longs]:
     """Return the rows of the edges of vertices, one vertex after the other, and their number for each vertex."""
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
     return np.arange(int(count.sum()), dtype=np.int64) + np.repeat(start - before, count), count
 
 
-def groups_of(rows: NDArray[np.int64], edges: NDArray[np.int32]) -> NDArray[np.int64]:
+def groups_of(rows: Longs, edges: Ints) -> Longs:
     """Return the number of the connected group of each row, (r,), from 0; only edges between two of the rows count.
 
     Parameters

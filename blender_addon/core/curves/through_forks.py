@@ -8,15 +8,12 @@ straightest through it are joined; a third one meets their line.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..small_matrices import dot, times
 from .smooth_line import at_marks, marks_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _STRAIGHT = (
     0.6  # the cosine of the largest turn at a fork that is one line; three equal angles are none
@@ -40,7 +37,7 @@ class Way:
 
 
 def ways_through(
-    wires: list[list[int]], points: NDArray[np.float64], radius: NDArray[np.float64], held: set[int]
+    wires: list[list[int]], points: Floats, radius: Floats, held: set[int]
 ) -> list[Way]:
     """Return ways that have each wire once, in the order of their first wires.
 
@@ -66,7 +63,7 @@ def ways_through(
     return _walked(len(wires), partner)
 
 
-def _partners(ends: list[int], away: NDArray[np.float64]) -> dict[int, int]:
+def _partners(ends: list[int], away: Floats) -> dict[int, int]:
     """Return the two ends that are one line at a node; none if there are none. A loop without a fork always is."""
     turns = times(away, away)
     first, last = divmod(int(np.argmin(turns)), len(ends))
@@ -75,9 +72,7 @@ def _partners(ends: list[int], away: NDArray[np.float64]) -> dict[int, int]:
     return {ends[first]: ends[last], ends[last]: ends[first]}
 
 
-def _direction(
-    wires: list[list[int]], end: int, points: NDArray[np.float64], reach: float
-) -> NDArray[np.float64]:
+def _direction(wires: list[list[int]], end: int, points: Floats, reach: float) -> Floats:
     """Return the unit direction of a wire from one of its ends, (3,); without a length it is 0."""
     wire = wires[end // 2][:: -1 if end % 2 else 1]
     table = points[wire] - points[wire[0]]

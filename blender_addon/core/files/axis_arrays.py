@@ -7,17 +7,15 @@ displayed places and radii are stored separately as `shown` and `shown_radius`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..axis.medial_axis import LevelValues, MedialAxis, no_edges
 from ..axis.structure import FIELDS, Structure
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
 
 # Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
 _OTHERS = ("level", "structure")
@@ -27,7 +25,7 @@ LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti", "pl
 STRUCTURE_NAMES = FIELDS
 
 
-def exact_balls(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def exact_balls(axis: MedialAxis) -> tuple[Floats, Floats]:
     """Return balls of the axis that end at the faces where these are known, else at the samples: (v, 3) and (v,)."""
     if (level := axis.level) is None:
         return axis.vertices, axis.radius

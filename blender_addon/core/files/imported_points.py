@@ -4,21 +4,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..errors import ReadError
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def _no_offsets() -> NDArray[np.int32]:
+def _no_offsets() -> Ints:
     return np.zeros(1, np.int32)
 
 
-def _no_vertices() -> NDArray[np.int32]:
+def _no_vertices() -> Ints:
     return np.zeros(0, np.int32)
 
 
@@ -42,10 +40,10 @@ class ImportedPoints:
         The file has the coordinates as float32.
     """
 
-    vertices: NDArray[np.float64]
-    normals: NDArray[np.float64] | None = None
-    face_offsets: NDArray[np.int32] = field(default_factory=_no_offsets)
-    face_vertices: NDArray[np.int32] = field(default_factory=_no_vertices)
+    vertices: Floats
+    normals: Floats | None = None
+    face_offsets: Ints = field(default_factory=_no_offsets)
+    face_vertices: Ints = field(default_factory=_no_vertices)
     warnings: tuple[str, ...] = ()
     single: bool = False
 
@@ -98,7 +96,7 @@ def checked(
     )
 
 
-def _as_float64(rows: NDArray) -> NDArray[np.float64]:
+def _as_float64(rows: NDArray) -> Floats:
     """Return the rows as float64; numbers that are too large for it become infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
         return np.ascontiguousarray(rows, np.float64)
@@ -113,7 +111,7 @@ def _check_finite(name: str, what: str, rows: NDArray) -> None:
         )
 
 
-def are_normals(vectors: NDArray[np.float64]) -> bool:
+def are_normals(vectors: Floats) -> bool:
     """Return whether vectors look like normals: each has length 1, up to two digits of text, or 0 for no normal.
 
     At least one component must be negative, as on every closed surface and in no colour.
@@ -126,9 +124,7 @@ def are_normals(vectors: NDArray[np.float64]) -> bool:
 
 
 def left_out(
-    columns: int,
-    normals: NDArray[np.float64] | None,
-    why: str = "only positions and normals are read",
+    columns: int, normals: Floats | None, why: str = "only positions and normals are read"
 ) -> list[str]:
     """Return a warning if a file has more columns than are read, otherwise an empty list."""
     left = columns - (3 if normals is None else 6)

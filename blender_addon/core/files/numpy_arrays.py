@@ -10,16 +10,14 @@ import zlib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _BROKEN = (
     ValueError,

@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..errors import ReadError
 from .imported_points import ImportedPoints, are_normals, left_out
 from .off_binary import read_off_binary
 from .text import Lines, Rows, open_lines
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _HEADER = re.compile(r"(?:ST|C|N)*OFF")
 
@@ -78,7 +75,7 @@ def _read_counts(lines: Lines) -> tuple[int, int]:
     return int(words[0]), int(words[1])
 
 
-def _normals(table: NDArray[np.float64], coloured: bool, name: str) -> NDArray[np.float64]:
+def _normals(table: Floats, coloured: bool, name: str) -> Floats:
     """Return columns 4 to 6. If there are colours, Geomview writes the normals before them and MeshLab after them."""
     if not coloured:
         return table[:, 3:6]
@@ -92,7 +89,7 @@ def _normals(table: NDArray[np.float64], coloured: bool, name: str) -> NDArray[n
     return found
 
 
-def _read_faces(rows: Rows, points: int) -> tuple[NDArray[np.int32], NDArray[np.int32], int]:
+def _read_faces(rows: Rows, points: int) -> tuple[Ints, Ints, int]:
     """Return offsets and corners of the polygons, and the number of faces left out for fewer than three corners.
 
     A line holds the number of corners, the corners, and perhaps a colour.

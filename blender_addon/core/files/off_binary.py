@@ -12,16 +12,14 @@ from __future__ import annotations
 import itertools
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Longs
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file, skip_mark
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _COUNTS = 3  # the numbers of points, faces and edges
 _COLUMNS = {"N": 3, "C": 4, "ST": 2}  # the numbers of a point besides its position, in this order
@@ -50,7 +48,7 @@ def read_off_binary(path: str | os.PathLike, kind: str) -> ImportedPoints:
 
 def _read(
     data: bytes, order: str, size: int, columns: int, coloured: bool
-) -> tuple[NDArray, NDArray[np.int64], NDArray[np.int64]] | None:
+) -> tuple[NDArray, Longs, Longs] | None:
     """Return the points, (n, columns), and the sizes and corners of the faces; None where it is written otherwise."""
     if len(data) < _COUNTS * _WORD:
         return None
@@ -68,7 +66,7 @@ def _read(
     return table.reshape(points, columns), sizes, words[first + np.arange(len(first))]
 
 
-def _starts(words: list[int], faces: int, coloured: bool) -> NDArray[np.int64] | None:
+def _starts(words: list[int], faces: int, coloured: bool) -> Longs | None:
     """Return where each face begins; None where the last one does not end with the words."""
     starts, at = [], 0
     for _ in range(faces):

@@ -3,18 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import ExportError
 from ..small_matrices import stretches
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def is_identity(transform: NDArray[np.float64]) -> bool:
+def is_identity(transform: Floats) -> bool:
     """Return whether a transform changes nothing.
 
     LAPACK is not used: its OpenBLAS waits forever for memory if addresses are limited.
@@ -22,9 +18,7 @@ def is_identity(transform: NDArray[np.float64]) -> bool:
     return np.array_equal(transform[:3], np.eye(3, 4))
 
 
-def parts_of(
-    transform: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+def parts_of(transform: Floats) -> tuple[Floats, Floats, float]:
     """Return the linear part of a transform, (3, 3), its offset, (3,), and the factor by which it scales lengths.
 
     Parameters
@@ -45,7 +39,7 @@ def parts_of(
     return linear, offset, _even_scale(linear)
 
 
-def _even_scale(linear: NDArray[np.float64]) -> float:
+def _even_scale(linear: Floats) -> float:
     """Return the factor by which `linear` scales all lengths; it is exactly 1 for a rigid frame in float32."""
     sizes = stretches(linear)[0]
     rounding = (

@@ -11,16 +11,15 @@ them and some take them for faces, so these files omit them, and `left_out` repo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Ints, Longs
 from ..axis.polygon_triangles import axis_triangles
 from ..errors import ExportError
 from .rows_of_text import write_rows
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _HEADER = """ply
 format ascii 1.0
@@ -111,7 +110,7 @@ def _require_facets(axis: Any) -> None:
         )
 
 
-def _triangles(axis: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+def _triangles(axis: Any) -> tuple[Ints, Longs]:
     """Return the triangles, (t, 3), and the facet of each, (t,)."""
     triangles = axis_triangles(axis)
     facets = len(axis.face_offsets) - 1

@@ -7,16 +7,15 @@ import io
 import os
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import Lines, Rows, open_file, skip_mark
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -100,7 +99,7 @@ def _found(tables: dict[str, _Table], name: str) -> ImportedPoints:
     return replace(checked(name, points, normals, sizes, corners), single=single)
 
 
-def _columns(table: _Table, names: tuple[str, ...]) -> NDArray[np.float64]:
+def _columns(table: _Table, names: tuple[str, ...]) -> Floats:
     return np.column_stack([table.columns[name] for name in names]).astype(np.float64)
 
 
@@ -190,7 +189,7 @@ class _Text:
             return _Table(columns, np.zeros(0, np.int64), np.zeros(0))
         return self._read_lists(element, rows)
 
-    def _check_finite(self, element: _Element, rows: Rows, table: NDArray[np.float64]) -> None:
+    def _check_finite(self, element: _Element, rows: Rows, table: Floats) -> None:
         """Check the columns that are read; the others may hold anything."""
         names = [entry.name for entry in element.properties]
         used = [i for i, name in enumerate(names) if name in _POSITION + _NORMAL]

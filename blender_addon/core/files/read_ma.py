@@ -6,16 +6,13 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..axis.medial_axis import MedialAxis
 from ..errors import ReadError
 from .text import open_file, skip_mark
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _WIDTHS = {b"v": 4, b"e": 2, b"f": 3}
 _INNER = 1  # the inner side has this value in `_medial.Side`
@@ -81,7 +78,7 @@ def _counts(header: tuple[int, list[bytes]], name: str) -> list[int]:
     return [int(word) for word in words]
 
 
-def _table(lines: list[tuple[int, list[bytes]]], kind: bytes, name: str) -> NDArray[np.float64]:
+def _table(lines: list[tuple[int, list[bytes]]], kind: bytes, name: str) -> Floats:
     width = _WIDTHS[kind]
     rows = [_row(words, kind, width) for _, words in lines]
     if None in rows:
@@ -103,7 +100,7 @@ def _row(words: list[bytes], kind: bytes, width: int) -> list[float] | None:
     return row if all(map(math.isfinite, row)) else None
 
 
-def _ids(rows: NDArray[np.float64], vertices: int, name: str) -> NDArray[np.int32]:
+def _ids(rows: Floats, vertices: int, name: str) -> Ints:
     inside = (rows >= 0) & (rows < vertices) & (rows == np.floor(rows))
     if not inside.all():
         raise ReadError(
@@ -113,7 +110,7 @@ def _ids(rows: NDArray[np.float64], vertices: int, name: str) -> NDArray[np.int3
     return rows.astype(np.int32)
 
 
-def _alone(pairs: NDArray[np.int32], corners: NDArray[np.int32]) -> NDArray[np.int32]:
+def _alone(pairs: Ints, corners: Ints) -> Ints:
     """Return the edges that are on no triangle, i < j, each once, ascending, (w, 2)."""
     sides = np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     found = set(map(tuple, sides.tolist()))

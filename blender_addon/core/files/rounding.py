@@ -6,20 +6,16 @@ Blender has no more bits, nor has `.stl`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import ExportError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _NOTICED = 0.05  # this share of the spacing is noticed; noise may be up to a third of the spacing
 _SAMPLE = 16  # the spacing is measured at this many points
 
 
-def rounding_warning(points: NDArray[np.float64]) -> str | None:
+def rounding_warning(points: Floats) -> str | None:
     """Return a warning if float32 moves points by a noticeable share of their spacing, otherwise None.
 
     Parameters
@@ -39,9 +35,7 @@ def rounding_warning(points: NDArray[np.float64]) -> str | None:
     )
 
 
-def check_stl(
-    points: NDArray[np.float64], frame: NDArray[np.float64] | None, length: float
-) -> None:
+def check_stl(points: Floats, frame: Floats | None, length: float) -> None:
     """Check that the 32 bits of `.stl` move no point by a noticeable share of what the result is about.
 
     Parameters
@@ -66,13 +60,13 @@ def check_stl(
         )
 
 
-def _moved(points: NDArray[np.float64]) -> float:
+def _moved(points: Floats) -> float:
     """Return how far 32 bits move a coordinate at most; it is infinite where one is too large for them."""
     with np.errstate(over="ignore"):
         return float(np.abs(points - points.astype(np.float32)).max(initial=0.0))
 
 
-def _spacing(points: NDArray[np.float64]) -> float:
+def _spacing(points: Floats) -> float:
     """Return the median distance of a few points to the nearest other place; it is infinite if there is none."""
     rows = np.linspace(0, len(points) - 1, min(_SAMPLE, len(points))).astype(np.int64)
     axes = np.ascontiguousarray(points.T)  # this is much faster than row by row

@@ -10,16 +10,13 @@ import os
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _HEADER = 84  # the triangles of a binary file begin after this many bytes; the last four give their number
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
@@ -52,7 +49,7 @@ def read_stl(path: str | os.PathLike) -> ImportedPoints:
     return replace(found, warnings=found.warnings + left, single=True)
 
 
-def _read_text(data: bytes, name: str) -> NDArray[np.float64]:
+def _read_text(data: bytes, name: str) -> Floats:
     words = _VERTEX.findall(data)
     if len(words) % 3 or len(words) != 3 * len(re.findall(rb"(?i)\bendfacet\b", data)):
         raise ReadError(
@@ -67,7 +64,7 @@ def _read_text(data: bytes, name: str) -> NDArray[np.float64]:
         ) from error
 
 
-def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _merged(corners: Floats) -> tuple[Floats, Longs]:
     """Return the distinct rows in the order in which they appear first, and the row of each corner."""
     if len(corners) == 0:
         return corners, np.zeros(0, np.int64)

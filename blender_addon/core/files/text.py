@@ -15,14 +15,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
+from typing import Any, BinaryIO, TextIO
 
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..errors import ReadError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _CHUNK = 1 << 17  # this many characters are parsed at once; they are few, to stay in the cache
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # this is the mark of UTF-8
@@ -46,9 +44,9 @@ class Rows:
         The name of the file.
     """
 
-    values: NDArray[np.float64]
-    offsets: NDArray[np.int64]
-    lines: NDArray[np.int64]
+    values: Floats
+    offsets: Longs
+    lines: Longs
     name: str
 
     def __len__(self) -> int:
@@ -60,7 +58,7 @@ class Rows:
         values = self.values[offsets[0] : offsets[-1]]
         return Rows(values, offsets - offsets[0], self.lines[start:stop], self.name)
 
-    def table(self, least: int, what: str) -> NDArray[np.float64]:
+    def table(self, least: int, what: str) -> Floats:
         """Return the rows as a table, (r, k); k must be at least `least`, and `what` names the columns in messages."""
         widths = np.diff(self.offsets)
         if widths[0] < least:
@@ -145,7 +143,7 @@ class Lines:
 
     def _parse(
         self, text: str, first: int, delimiter: str, finite: bool
-    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    ) -> tuple[Floats, Longs, Longs]:
         """Return the numbers of a piece, how many of them each filled line has, and the numbers of those lines."""
         if delimiter:
             self._check_fields(text, first, delimiter)
@@ -239,7 +237,7 @@ def _shown(word: bytes) -> str:
     return ascii(word[:24].decode("latin-1")) + ("..." if len(word) > 24 else "")
 
 
-def _words_per_line(data: bytes) -> NDArray[np.int64]:
+def _words_per_line(data: bytes) -> Longs:
     """Return the number of words of each line; the last line has no line feed, or is empty."""
     symbols = np.frombuffer(b"\n" + data + b"\n", np.uint8)
     blank = _BLANK[symbols]

@@ -7,23 +7,22 @@ Numbers are in base64, not in words: VTK's reader of words does not know nan.
 from __future__ import annotations
 
 import base64
-from typing import TYPE_CHECKING, Any, BinaryIO
+from collections.abc import Mapping
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
+from ..arrays import Floats, Ints
 
 _TYPES = {"<f8": "Float64", "<i4": "Int32"}
 
 
 def write_vtp(
     stream: BinaryIO,
-    points: NDArray[np.float64],
-    singles: NDArray[np.int32],
-    lines: list[NDArray[np.int32]],
+    points: Floats,
+    singles: Ints,
+    lines: list[Ints],
     of_points: Mapping[str, NDArray[Any]],
     of_cells: Mapping[str, NDArray[Any]],
 ) -> None:
@@ -59,7 +58,7 @@ def write_vtp(
     stream.write(("\n".join(rows) + "\n").encode("ascii"))
 
 
-def _cells(name: str, cells: list[NDArray[np.int32]]) -> list[str]:
+def _cells(name: str, cells: list[Ints]) -> list[str]:
     rows = np.concatenate([*cells, np.zeros(0, np.int32)])
     offsets = np.cumsum([len(cell) for cell in cells], dtype=np.int64)
     return _element(name, {"connectivity": rows, "offsets": offsets})

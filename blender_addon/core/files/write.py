@@ -12,10 +12,12 @@ import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints, Longs
 from ..axis.medial_axis import MedialAxis
 from ..axis.polygon_triangles import axis_triangles
 from ..axis.turning import turned_corners
@@ -27,9 +29,6 @@ from .placing import is_identity, parts_of
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 from .write_parts import write_csv
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _CHUNK = 1 << 16  # this many rows are formatted at once, which bounds the memory of one write
 
@@ -107,7 +106,7 @@ def format_of(path: str | os.PathLike) -> Format:
 # --- placing
 
 
-def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
+def _placed(axis: MedialAxis, transform: Floats) -> MedialAxis:
     """Return the axis in world coordinates."""
     if is_identity(transform):
         return axis
@@ -133,10 +132,7 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
 
 
 def _write_polygons(
-    stream: BinaryIO,
-    row_of: Callable[[int], str],
-    counts: NDArray[np.int32],
-    tokens: NDArray[np.int32],
+    stream: BinaryIO, row_of: Callable[[int], str], counts: Ints, tokens: Ints
 ) -> None:
     """Write one line per polygon; `row_of(count)` is the %-format of a polygon with `count` corners."""
     rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
@@ -159,9 +155,7 @@ def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     _write_rows(stream, "f %d %d %d\n", triangles)
 
 
-def _edges(
-    triangles: NDArray[np.int32], alone: NDArray[np.int32], vertex_count: int
-) -> NDArray[np.int64]:
+def _edges(triangles: Ints, alone: Ints, vertex_count: int) -> Longs:
     """Return the edges of triangles and those without one, (e, 2), each once, i < j, in lexicographic order."""
     all_ends = np.concatenate([triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), alone])
     ends = np.sort(all_ends, axis=1).astype(np.int64)
@@ -250,7 +244,7 @@ def _ply_floats(*names: str) -> str:
     return "".join(f"property float {name}\n" for name in names)
 
 
-def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
+def _ply_faces(axis: MedialAxis, counts: Ints, count_type: str) -> Iterator[bytes]:
     """Yield the face element in pieces: rows of one length are packed together and scattered to their places."""
     fixed: list[tuple[Any, ...]] = [
         ("theta", "<f8"),

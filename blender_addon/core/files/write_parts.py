@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
+from ..axis.medial_axis import MedialAxis
 from ..axis.structure_table import COLUMNS, rows_of
 from ..errors import ExportError
-
-if TYPE_CHECKING:
-    from ..axis.medial_axis import MedialAxis
 
 
 def write_csv(axis: MedialAxis, stream: BinaryIO) -> None:

@@ -6,10 +6,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..shape.triangles import unit_normals
 from ..small_matrices import placed
 from .extensions import extension_of
@@ -17,16 +18,9 @@ from .rounding import check_stl
 from .rows_of_text import write_rows
 from .whole_file import write_whole
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 
 def export_triangles(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    path: str | os.PathLike[str],
-    frame: NDArray[np.float64],
-    length: float,
+    points: Floats, triangles: Ints, path: str | os.PathLike[str], frame: Floats, length: float
 ) -> Path:
     """Write triangles; the extension of `path` chooses the format.
 
@@ -58,7 +52,7 @@ def export_triangles(
     return write_whole(path, lambda stream: write(world, triangles, stream))
 
 
-def write_stl(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+def write_stl(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     """Write a binary `.stl`."""
     corners = points[triangles]
     facets = np.zeros(
@@ -70,18 +64,18 @@ def write_stl(points: NDArray[np.float64], triangles: NDArray[np.int32], stream:
     stream.write(facets.tobytes())
 
 
-def _write_obj(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+def _write_obj(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     write_rows(stream, "v %.17g %.17g %.17g\n", points)
     write_rows(stream, "f %d %d %d\n", triangles + 1)
 
 
-def _write_off(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+def _write_off(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n".encode("ascii"))
     write_rows(stream, "%.17g %.17g %.17g\n", points)
     write_rows(stream, "3 %d %d %d\n", triangles)
 
 
-def _write_ply(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+def _write_ply(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     header = f"""ply
 format binary_little_endian 1.0
 element vertex {len(points)}
@@ -99,7 +93,7 @@ end_header
     stream.write(faces.tobytes())
 
 
-TRIANGLE_FORMATS: dict[str, Callable[[NDArray[np.float64], NDArray[np.int32], BinaryIO], None]] = {
+TRIANGLE_FORMATS: dict[str, Callable[[Floats, Ints, BinaryIO], None]] = {
     ".stl": write_stl,
     ".ply": _write_ply,
     ".obj": _write_obj,

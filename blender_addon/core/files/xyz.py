@@ -4,16 +4,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
-import numpy as np
-
+from ..arrays import Floats
 from ..errors import ReadError
 from .imported_points import ImportedPoints, are_normals, left_out
 from .text import Lines, is_number
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 def read_xyz(lines: Lines) -> ImportedPoints:
@@ -29,7 +24,7 @@ def read_xyzn(lines: Lines) -> ImportedPoints:
     return _found(table, table[:, 3:6])
 
 
-def _read_table(lines: Lines, least: int, what: str) -> NDArray[np.float64]:
+def _read_table(lines: Lines, least: int, what: str) -> Floats:
     """Return the points, (n, k); a count and a title may precede them."""
     stated = _skip_count(lines)
     _skip_title(lines, stated)
@@ -61,7 +56,7 @@ def _skip_title(lines: Lines, stated: int | None) -> None:
         lines.advance()
 
 
-def _found(table: NDArray[np.float64], normals: NDArray[np.float64] | None) -> ImportedPoints:
+def _found(table: Floats, normals: Floats | None) -> ImportedPoints:
     columns = table.shape[1]
     if normals is None and columns >= 6:
         why = (

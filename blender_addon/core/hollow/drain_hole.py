@@ -4,18 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .hollow import Hollow
+from .hollow import Hollow
 
 _LEVEL = 0.05  # of the wall: vertices that are less above the lowest are as low
 _STEP = 1e-3  # of the wall: differences over so much tell the shortest way
@@ -36,17 +32,12 @@ class DrainHole:
         Its diameter.
     """
 
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
+    start: Floats
+    end: Floats
     width: float
 
 
-def drain_hole(
-    found: Hollow,
-    width: float,
-    down: NDArray[np.float64],
-    near: NDArray[np.float64] | None = None,
-) -> DrainHole:
+def drain_hole(found: Hollow, width: float, down: Floats, near: Floats | None = None) -> DrainHole:
     """Find the hole at the lowest place of the cavity, or at the one nearest to a place.
 
     Parameters
@@ -83,7 +74,7 @@ def drain_hole(
     return DrainHole(place - reach * way, place + (out + reach) * way, width)
 
 
-def _lowest(found: Hollow, down: NDArray[np.float64]) -> int:
+def _lowest(found: Hollow, down: Floats) -> int:
     """The vertex in the middle of the lowest ones."""
     depth = dot(found.cavity, down)
     rows = np.flatnonzero(depth >= depth.max() - _LEVEL * found.wall)
@@ -92,13 +83,11 @@ def _lowest(found: Hollow, down: NDArray[np.float64]) -> int:
     return int(rows[np.argmin(away)])
 
 
-def _nearest(found: Hollow, place: NDArray[np.float64]) -> int:
+def _nearest(found: Hollow, place: Floats) -> int:
     return int(np.argmin(np.linalg.norm(found.cavity - place, axis=1)))
 
 
-def _way_out(
-    found: Hollow, place: NDArray[np.float64], down: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _way_out(found: Hollow, place: Floats, down: Floats) -> Floats:
     """(3,) the direction in which the distance from the faces falls fastest; down where none is the fastest."""
     step = _STEP * found.wall
     sides = np.concatenate((np.identity(3), -np.identity(3))) * step

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
@@ -17,15 +17,11 @@ from ..samples.mesh_parts import check_no_sheet
 from ..settings import HollowSettings
 from ..shape.outward_faces import are_left_out, outward_shape, reading_warnings
 from ..shape.own_frame import rounding_warning
+from ..shape.shape import Shape
 from ..shape.triangle_faces import TriangleFaces
 from ..small_matrices import dot, length_of
 from ..united import united
 from .offset_surface import COARSEST, OffsetSurface, offset_surface
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 _WALL = 0.03  # of the diagonal: the wall where none is asked for
 _FINEST = 0.25  # of the wall: the step of the lattice where nothing else is asked for
@@ -68,8 +64,8 @@ class Hollow(TriangleFaces):
     seconds : float
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int32]
+    vertices: Floats
+    triangles: Ints
     outer: int
     wall: float
     step: float
@@ -91,7 +87,7 @@ class Hollow(TriangleFaces):
         return len(self.shape.points)
 
     @property
-    def cavity(self) -> NDArray[np.float64]:
+    def cavity(self) -> Floats:
         """(k, 3) the vertices of the cavity."""
         return self.vertices[self.points :]
 
@@ -159,13 +155,9 @@ def _step(shape: Shape, wanted: HollowSettings) -> float:
 
 
 def _surface(
-    points: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    wall: float,
-    step: float,
-    progress: Progress,
+    points: Floats, faces: Ints, wall: float, step: float, progress: Progress
 ) -> OffsetSurface:
-    def distances(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    def distances(places: Floats) -> Floats:
         with own_errors() as module:
             return np.asarray(
                 module.surface_distances(
@@ -173,7 +165,7 @@ def _surface(
                 )
             )
 
-    def winding(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    def winding(places: Floats) -> Floats:
         with own_errors() as module:
             return np.asarray(module.winding_number(np.ascontiguousarray(places), points, faces))
 
@@ -183,7 +175,7 @@ def _surface(
 
 def _shell(
     shape: Shape,
-    faces: NDArray[np.int32],
+    faces: Ints,
     surface: OffsetSurface,
     wall: float,
     step: float,
@@ -236,7 +228,7 @@ def _warnings(shape: Shape, cavities: int, loose: int, step: float) -> tuple[str
     return tuple(found)
 
 
-def least_distances(surface: OffsetSurface) -> NDArray[np.float64]:
+def least_distances(surface: OffsetSurface) -> Floats:
     """(t,) a bound for the distance of every point of each triangle from the faces.
 
     Let p be a place on the faces, and x a point of a triangle: a mean of its corners. The mean of the squared distances
@@ -254,7 +246,7 @@ def least_distances(surface: OffsetSurface) -> NDArray[np.float64]:
     return np.sqrt(np.maximum(near * near - radius * radius, 0.0))
 
 
-def _volumes(surface: OffsetSurface) -> NDArray[np.float64]:
+def _volumes(surface: OffsetSurface) -> Floats:
     """(k,) the volume in each connected part of the surface, negative where the hollow is outside of it."""
     label = united(len(surface.vertices), surface.triangles[:, [0, 1, 1, 2]].reshape(-1, 2))
     _, part = np.unique(label[surface.triangles[:, 0]], return_inverse=True)

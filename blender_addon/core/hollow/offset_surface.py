@@ -10,17 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot
 from ..united import united
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Field = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Field = Callable[[Floats], Floats]
 
 COARSEST = 0.5  # the step is at most this share of the distance, so that no tetrahedron reaches from wall to surface
 _APART = 1e-3  # vertices keep this share of their edge to its ends, so that no two coincide
@@ -48,18 +47,13 @@ class OffsetSurface:
         How far each vertex is from the faces.
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    distances: NDArray[np.float64]
+    vertices: Floats
+    triangles: Ints
+    distances: Floats
 
 
 def offset_surface(
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    length: float,
-    step: float,
-    field: Field,
-    winding: Field,
+    low: Floats, high: Floats, length: float, step: float, field: Field, winding: Field
 ) -> OffsetSurface:
     """Find the surface at a distance from faces.
 
@@ -79,7 +73,7 @@ def offset_surface(
     origin = low - step * np.array(_SHIFT)
     half = 0.5 * step  # nodes have whole coordinates: corners of cubes even ones, centres odd ones
 
-    def at(nodes: NDArray[Any]) -> NDArray[np.float64]:
+    def at(nodes: NDArray[Any]) -> Floats:
         return field(origin + half * nodes)
 
     count = int(np.ceil((high - origin).max() / step)) + 1
@@ -92,7 +86,7 @@ def offset_surface(
     return OffsetSurface(vertices, triangles, distances)
 
 
-def _cells_at(length: float, count: int, field: Field) -> NDArray[np.int64]:
+def _cells_at(length: float, count: int, field: Field) -> Longs:
     """(c, 3) the centres of the cubes through which the surface may go; lengths are in half steps.
 
     Larger cubes are halved as long as the surface may go through them.
@@ -110,7 +104,7 @@ def _cells_at(length: float, count: int, field: Field) -> NDArray[np.int64]:
         cells = (cells[:, None] + (size // 2) * _CORNERS).reshape(-1, 3)
 
 
-def _inside(cells: NDArray[np.int64], winding: Field) -> NDArray[np.int64]:
+def _inside(cells: Longs, winding: Field) -> Longs:
     """The cubes inside the solid. No two that share a face are on different sides of its faces."""
     if not len(cells):
         return cells
@@ -127,14 +121,14 @@ def _inside(cells: NDArray[np.int64], winding: Field) -> NDArray[np.int64]:
     return cells[(winding(cells[first].astype(np.float64)) > 0.5)[piece.reshape(-1)]]
 
 
-def _keys(nodes: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _keys(nodes: Longs) -> tuple[Longs, Longs]:
     """(n,) a number for each node, in the order of its coordinates, and (3,) what each coordinate counts."""
     wide = int(nodes.max(initial=0)) + 5  # neighbours are 2 farther on both sides
     weights = np.array((wide * wide, wide, 1))
     return (nodes + 2) @ weights, weights
 
 
-def _tetrahedra(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _tetrahedra(cells: Longs) -> tuple[Longs, Longs]:
     """(n, 3) nodes and (k, 4) the tetrahedra round cubes: the centres beside a face, and an edge of that face."""
     keys, weights = _keys(cells)
     found = []
@@ -150,9 +144,7 @@ def _tetrahedra(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np
     return np.column_stack((*np.divmod(rest, weights[1]), z)) - 2, tetrahedra.reshape(-1, 4)
 
 
-def _marched(
-    nodes: NDArray[np.int64], far: NDArray[np.bool_], tetrahedra: NDArray[np.int64]
-) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+def _marched(nodes: Longs, far: Flags, tetrahedra: Longs) -> tuple[Ints, Longs]:
     """(t, 3) triangles, and (v, 2) the near and the far end of the edge on which each of their vertices lies."""
     many = far[tetrahedra].sum(axis=1)
     found = []
@@ -178,12 +170,8 @@ def _marched(
 
 
 def _crossings(
-    places: NDArray[np.float64],
-    far: NDArray[np.float64],
-    ends: NDArray[np.int64],
-    length: float,
-    field: Field,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    places: Floats, far: Floats, ends: Longs, length: float, field: Field
+) -> tuple[Floats, Floats]:
     """(v, 3) where the distance is reached on edges, and (v,) the distance there: false position and halves."""
     near, way = places[ends[:, 0]], places[ends[:, 1]] - places[ends[:, 0]]
     low, high = np.zeros(len(ends)), np.ones(len(ends))

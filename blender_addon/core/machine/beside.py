@@ -5,12 +5,10 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from types import TracebackType
+from typing import Any, Generic, TypeVar
 
 from . import native
-
-if TYPE_CHECKING:
-    from types import TracebackType
 
 T = TypeVar("T")
 

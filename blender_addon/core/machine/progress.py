@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 from . import native
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 
 class Progress:

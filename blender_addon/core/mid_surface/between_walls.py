@@ -8,28 +8,19 @@ meet both of its walls.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats
 from ..machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .sheet_walls import Walls
+from .sheet_walls import Walls
 
 _REACH = 2.0  # so many radii away both walls are looked for; they are two apart at most
 _LIKE = 0.25  # in radii: walls whose distance differs by more from the expected one are others
 
 
 def between_walls(
-    places: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    expected: NDArray[np.float64],
-    walls: Walls,
-) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
+    places: Floats, normals: Floats, radius: Floats, expected: Floats, walls: Walls
+) -> tuple[Flags, Floats, Floats]:
     """Measure a sheet between its walls.
 
     Parameters

@@ -10,21 +10,17 @@ and the walls at its rims, meet.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..small_matrices import dot, shortest_solutions
 from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
 from .sheet_walls import TOUCHES, Walls, reflex_distances
+from .thin_sheets import ThinSheets
 from .unfolded_sheets import unfolded
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .thin_sheets import ThinSheets
 
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
 _BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least
@@ -50,10 +46,10 @@ class CarriedSheets:
         The thickness of the sheet of each triangle at its corners.
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    part: NDArray[np.int32]
-    at_corners: NDArray[np.float64]
+    vertices: Floats
+    triangles: Ints
+    part: Ints
+    at_corners: Floats
 
 
 def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
@@ -77,7 +73,7 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     )
 
 
-def _clear(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _clear(sheets: ThinSheets, unclear: Flags) -> Flags:
     """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others.
 
     In a sheet that is not so wide they are as many rings away as there are.
@@ -96,9 +92,7 @@ def _clear(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray((away > 0) & (away == most[sheets.part]))
 
 
-def _tilted(
-    sheets: ThinSheets, unclear: NDArray[np.bool_], area: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     """(t,) the triangles of facets at rims that leave the plane of the facets around.
 
     A corner of theirs has gone a little way towards the edges of the solid, where the axis forks.
@@ -122,15 +116,13 @@ def _tilted(
     return facets[sheets.facet]
 
 
-def _doubled_areas(sheets: ThinSheets) -> NDArray[np.float64]:
+def _doubled_areas(sheets: ThinSheets) -> Floats:
     """(t,) twice the area of each triangle."""
     a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
-def _are_curved(
-    sheets: ThinSheets, clear: NDArray[np.bool_], area: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _are_curved(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
     """(parts,) the sheets whose clear triangles do not have one normal."""
     weight = np.where(clear, area, 0.0)
     total = np.zeros((sheets.parts, 3))
@@ -139,9 +131,7 @@ def _are_curved(
     return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
 
 
-def _are_uneven(
-    sheets: ThinSheets, clear: NDArray[np.bool_], area: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _are_uneven(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
     """(parts,) the sheets over whose clear triangles the thickness does not change evenly."""
     weight = np.where(clear, area, 0.0)
     whole = np.maximum(np.bincount(sheets.part, weight, sheets.parts), np.finfo(float).tiny)
@@ -161,7 +151,7 @@ class _Planes:
     whose facets are between faces. Where the thickness of the sheet is uneven, rays to its walls correct it.
     """
 
-    def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_], walls: Walls) -> None:
+    def __init__(self, sheets: ThinSheets, bent: Flags, walls: Walls) -> None:
         self._count = count = len(sheets.vertices)
         key = sheets.part[:, None] * np.int64(count) + sheets.triangles
         pairs, of_corner = np.unique(key, return_inverse=True)
@@ -180,7 +170,7 @@ class _Planes:
         known = self.vertex[self._site] == self.vertex
         self._correct(sheets, ~known & _are_uneven(sheets, clear, area)[part], walls)
 
-    def _correct(self, sheets: ThinSheets, asked: NDArray[np.bool_], walls: Walls) -> None:
+    def _correct(self, sheets: ThinSheets, asked: Flags, walls: Walls) -> None:
         """Take the middle between the walls at vertices of sheets that go on there from elsewhere."""
         rows = np.flatnonzero(asked)
         if not len(rows):
@@ -196,7 +186,7 @@ class _Planes:
         self.places[rows[at_tip]] = own[at_tip]
         self._radius[rows[at_tip]] = sheets.radius[vertex[at_tip]]
 
-    def _middles(self, sheets: ThinSheets) -> NDArray[np.float64]:
+    def _middles(self, sheets: ThinSheets) -> Floats:
         """(p, 3) the mean of the middles of the triangles around each pair of sheet and vertex."""
         count, sums = np.zeros(len(self.vertex)), np.zeros((len(self.vertex), 3))
         np.add.at(count, self._of_corner, 1.0)
@@ -204,19 +194,13 @@ class _Planes:
         np.add.at(sums, self._of_corner, middles[:, None])
         return sums / count[:, None]
 
-    def _take(
-        self,
-        sheets: ThinSheets,
-        part: NDArray[np.int64],
-        clear: NDArray[np.bool_],
-        area: NDArray[np.float64],
-    ) -> None:
+    def _take(self, sheets: ThinSheets, part: Longs, clear: Flags, area: Floats) -> None:
         known, normals, slopes = self._means(sheets, np.where(clear, area, 0.0))
         site = self._site = self._sites(sheets.vertices, part, known)
         self.places, self.normals = sheets.vertices[self.vertex[site]], normals[site]
         self._radius, self._slopes = sheets.radius[self.vertex[site]], slopes[site]
 
-    def _fits(self, sheets: ThinSheets) -> NDArray[np.bool_]:
+    def _fits(self, sheets: ThinSheets) -> Flags:
         """(t,) the triangles whose balls are as large as the planes tell: they are between the same walls.
 
         A ball that touches an edge is smaller at a rim, and larger where walls meet.
@@ -226,9 +210,7 @@ class _Planes:
         fits = (np.abs(radii - told) <= _EQUAL * told).all(axis=1)
         return np.asarray(fits)
 
-    def at_ends_of_bends(
-        self, sheets: ThinSheets
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    def at_ends_of_bends(self, sheets: ThinSheets) -> tuple[Longs, Floats, Floats]:
         """Vertices, and places and normals of planes through them.
 
         Two sheets that meet at a sharp convex edge may have its last vertices in one of them only. These are in the
@@ -254,9 +236,7 @@ class _Planes:
         near = depth <= (1.0 + TOUCHES) * self._radius[pair]  # on the wall, as at a bend
         return vertex[near], self.places[pair[near]], self.normals[pair[near]]
 
-    def _means(
-        self, sheets: ThinSheets, weight: NDArray[np.float64]
-    ) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
+    def _means(self, sheets: ThinSheets, weight: Floats) -> tuple[Flags, Floats, Floats]:
         """Whether each pair of sheet and vertex has facets between faces, and their mean normal and slope."""
         total = np.zeros(len(self.vertex))
         sums = np.zeros((2, len(self.vertex), 3))
@@ -271,9 +251,7 @@ class _Planes:
         normals = sums[0] / np.where(known, length, 1.0)[:, None]
         return known, normals, sums[1] / np.where(known, total, 1.0)[:, None]
 
-    def _sites(
-        self, vertices: NDArray[np.float64], part: NDArray[np.int64], known: NDArray[np.bool_]
-    ) -> NDArray[np.int64]:
+    def _sites(self, vertices: Floats, part: Longs, known: Flags) -> Longs:
         """The pair from which each pair has its plane: itself, or the nearest known one of its sheet."""
         site = np.arange(len(part))
         for number in np.unique(part[~known]):
@@ -287,15 +265,15 @@ class _Planes:
                 site[rows] = sites[nearest]
         return site
 
-    def shared(self) -> NDArray[np.bool_]:
+    def shared(self) -> Flags:
         """(v,) the vertices of more than one sheet."""
         return np.asarray(np.bincount(self.vertex, minlength=self._count) > 1)
 
-    def normals_at_corners(self) -> NDArray[np.float64]:
+    def normals_at_corners(self) -> Floats:
         """(t, 3, 3) the normals of the sheets at the corners of the triangles."""
         return self.normals[self._of_corner]
 
-    def radii_at_corners(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    def radii_at_corners(self, vertices: Floats) -> Floats:
         """(t, 3) half of the thickness of the sheets where they are carried to."""
         away = vertices[self.vertex] - self.places
         radii = np.maximum(self._radius + dot(self._slopes, away), 0.0)
@@ -309,17 +287,12 @@ class _Rows:
         self._squares = np.zeros((count, 3, 3))
         self._targets = np.zeros((count, 3))
 
-    def add(
-        self,
-        vertex: NDArray[np.int64],
-        places: NDArray[np.float64],
-        normals: NDArray[np.float64],
-    ) -> None:
+    def add(self, vertex: Longs, places: Floats, normals: Floats) -> None:
         np.add.at(self._squares, vertex, normals[:, :, None] * normals[:, None, :])
         offset = dot(normals, places)
         np.add.at(self._targets, vertex, normals * offset[:, None])
 
-    def solved(self, start: NDArray[np.float64]) -> NDArray[np.float64]:
+    def solved(self, start: Floats) -> Floats:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
         lack = self._targets - dot(self._squares, start[:, None])
         return start + shortest_solutions(self._squares, lack, _PLANE)

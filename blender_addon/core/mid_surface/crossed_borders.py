@@ -3,24 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .sheet_faces import SheetFaces
+from .sheet_faces import SheetFaces
 
 _PLAIN = 1e-3  # triangles of a polygon with this share more of area than they enclose overlap
 _NOTHING = 1e-9  # of all area: so small a polygon has none
 _TOUCHES = 2.0**-16  # of the extent: the corners of a polygon are so far from its plane at most
 
 
-def crossings(faces: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def crossings(faces: SheetFaces) -> tuple[Floats, Ints]:
     """Find where the borders of polygons cross themselves.
 
     Returns
@@ -49,9 +44,7 @@ def crossings(faces: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.int32]
     return np.concatenate(places), np.concatenate(part)
 
 
-def _overlap(
-    faces: SheetFaces, normals: NDArray[np.float64], doubled: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _overlap(faces: SheetFaces, normals: Floats, doubled: Floats) -> Flags:
     """(f,) the polygons whose triangles overlap: they have more area than they enclose."""
     enclosed = np.zeros((len(faces.part), 3))
     np.add.at(enclosed, faces.of, normals * doubled[:, None])
@@ -60,9 +53,7 @@ def _overlap(
     return np.asarray((beyond > _PLAIN * whole) & (whole > _NOTHING * whole.sum()))
 
 
-def _crossings_of(
-    ring: NDArray[np.float64], flat: NDArray[np.float64], step: float, touching: bool
-) -> NDArray[np.float64]:
+def _crossings_of(ring: Floats, flat: Floats, step: float, touching: bool) -> Floats:
     """(k, 3) where sides of a polygon cross or touch, given its (n, 3) corners and the same in a plane, (n, 2)."""
     count, ends = len(flat), np.roll(flat, -1, axis=0)
     low, high = np.minimum(flat, ends) - step, np.maximum(flat, ends) + step
@@ -80,9 +71,7 @@ def _crossings_of(
     return np.concatenate(found)
 
 
-def _beside(
-    start: NDArray[np.float64], end: NDArray[np.float64], place: NDArray[np.float64], step: float
-) -> NDArray[np.float64]:
+def _beside(start: Floats, end: Floats, place: Floats, step: float) -> Floats:
     """How far places lie beside lines, positive to the left; 0 where that is less than a step."""
     along, to = end - start, place - start
     length = np.sqrt(dot(along, along))

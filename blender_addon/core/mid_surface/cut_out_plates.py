@@ -8,20 +8,15 @@ half a thickness farther down.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Longs
+from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import first_rows
 from ..united import united
 from .carried_sheets import CarriedSheets
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 _MOSTLY = 0.95  # of the volume, in thickness, too, has to be sheet, so that no more than bridges is missing
 _ALONG = 0.999  # the cosine between normals that may be those of one flat face
@@ -57,7 +52,7 @@ def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
     return _plate(shape, mean, thickness)
 
 
-def _plate(shape: Shape, across: NDArray[np.float64], thickness: float) -> CarriedSheets | None:
+def _plate(shape: Shape, across: Floats, thickness: float) -> CarriedSheets | None:
     """The middle of a plate of about a thickness, whose flat faces look along a vector, about, and against it."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     turned = dot(normals, across[None])
@@ -80,15 +75,13 @@ def _plate(shape: Shape, across: NDArray[np.float64], thickness: float) -> Carri
     return _sheets(middle, first_rows(shape.points)[triangles], high - low)
 
 
-def _direction(normals: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+def _direction(normals: Floats, weights: Floats) -> Floats:
     """(3,) the mean of unit normals as a unit vector, or 0."""
     mean = (normals * weights[:, None]).sum(axis=0)
     return np.asarray(mean / (length_of(mean) or 1.0))
 
 
-def _is_plate(
-    shape: Shape, across: NDArray[np.float64], flat: NDArray[np.float64], thickness: float
-) -> bool:
+def _is_plate(shape: Shape, across: Floats, flat: Floats, thickness: float) -> bool:
     """Whether two flat faces, 1 and -1, are equal, all others are upright, and the volume is that of a plate."""
     normals, doubled = unit_normals(shape.points[shape.triangles])
     seen = 0.5 * doubled * np.abs(dot(normals, across[None]))
@@ -97,9 +90,7 @@ def _is_plate(
     return amiss <= _FLAT * top
 
 
-def _sheets(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], thickness: float
-) -> CarriedSheets:
+def _sheets(vertices: Floats, triangles: Longs, thickness: float) -> CarriedSheets:
     label = united(len(vertices), np.concatenate((triangles[:, :2], triangles[:, 1:])))
     _, part = np.unique(label[triangles[:, 0]], return_inverse=True)
     return CarriedSheets(

@@ -3,23 +3,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..axis.directions import corners_after
+from ..machine.progress import Progress
 from ..small_matrices import dot
 from .even_triangles import even_triangles
 from .quad_pairs import least_sines, paired
 from .sheet_faces import SheetFaces
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-
-    # Places, (k, 4) rows of these with -1 where a face is a triangle, and the sheets of the faces.
-    _Made = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int32]]
+# Places, (k, 4) rows of these with -1 where a face is a triangle, and the sheets of the faces.
+_Made = tuple[Floats, Longs, Ints]
 
 _STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's
 _LEAST_SINE = 0.5  # at the corners of a grid
@@ -87,12 +82,12 @@ def _with_borders_divided(faces: SheetFaces, length: float) -> SheetFaces:
     return SheetFaces(np.concatenate((faces.vertices, new)), offsets, rows, faces.part)
 
 
-def _counted(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+def _counted(counts: Longs) -> Longs:
     """0, 1, ... up to each of the counts, one after the other."""
     return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
-def _grid(ring: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
+def _grid(ring: Floats) -> tuple[Floats, Longs] | None:
     """(n, 3) places and (q, 4) quadrilaterals of a grid between (r, 3) places round a face, whose edges it keeps.
 
     None where the ring has not four corners, or opposite sides have other numbers of edges.
@@ -114,19 +109,14 @@ def _grid(ring: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.in
     return (places, quads) if least_sines(places[quads]).min() >= _LEAST_SINE else None
 
 
-def _filled(
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    left: NDArray[np.float64],
-    right: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def _filled(low: Floats, high: Floats, left: Floats, right: Floats) -> Floats:
     """(u + 1, v + 1, 3) places between two sides of u and two of v edges (Coons 1967)."""
-    s: NDArray[np.float64] = np.linspace(0.0, 1.0, len(low))[:, None, None]
-    t: NDArray[np.float64] = np.linspace(0.0, 1.0, len(left))[None, :, None]
+    s: Floats = np.linspace(0.0, 1.0, len(low))[:, None, None]
+    t: Floats = np.linspace(0.0, 1.0, len(left))[None, :, None]
     across = (1.0 - t) * low[:, None] + t * high[:, None]
     along = (1.0 - s) * left[None] + s * right[None]
     ends = (1.0 - t) * low[[0, -1], None] + t * high[[0, -1], None]
-    places: NDArray[np.float64] = across + along - (1.0 - s) * ends[:1] - s * ends[1:]
+    places: Floats = across + along - (1.0 - s) * ends[:1] - s * ends[1:]
     places[:, 0], places[:, -1], places[0], places[-1] = low, high, left, right
     return places
 

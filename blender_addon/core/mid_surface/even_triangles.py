@@ -3,28 +3,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-
+from ..machine.progress import Progress
 
 _LONGEST = 4.0 / 3.0  # the remeshing moves no edge that is longer than so many lengths
 
 
 def even_triangles(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    part: NDArray[np.int32],
-    length: float,
-    progress: Progress | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    points: Floats, triangles: Ints, part: Ints, length: float, progress: Progress | None = None
+) -> tuple[Floats, Ints, Ints]:
     """Remesh sheets to triangles that are nearly equilateral; sheets that share edges still do.
 
     A sheet that touches itself, so that an edge has three triangles of it, has divided triangles instead.
@@ -77,9 +67,7 @@ def even_triangles(
     )
 
 
-def divided(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], longest: float
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
+def divided(points: Floats, triangles: Ints, longest: float) -> tuple[Floats, Ints, Longs]:
     """Divide triangles by the bisection of Rivara: no angle is less than half of the least one before.
 
     Parameters
@@ -115,9 +103,7 @@ def divided(
         of = of[rows]
 
 
-def _cut_edges(
-    edge: NDArray[np.int64], lengths: NDArray[np.float64], longest: float, count: int
-) -> NDArray[np.bool_]:
+def _cut_edges(edge: Longs, lengths: Floats, longest: float, count: int) -> Flags:
     """(e,) the edges that are too long, and the longest edges of all triangles that have a cut edge."""
     cut = np.zeros(count, bool)
     cut[edge[lengths > longest]] = True
@@ -129,19 +115,14 @@ def _cut_edges(
         cut[more] = True
 
 
-def _longest(lengths: NDArray[np.float64], edge: NDArray[np.int64]) -> NDArray[np.int64]:
+def _longest(lengths: Floats, edge: Longs) -> Longs:
     """(t,) the longest side of each triangle; of equal ones that with the lowest number, in all triangles the same."""
     most = lengths.max(axis=1, keepdims=True)
     numbers = np.where(lengths >= most, edge, np.iinfo(np.int64).max)
     return np.asarray(numbers.argmin(axis=1))
 
 
-def _halved(
-    triangles: NDArray[np.int32],
-    edge: NDArray[np.int64],
-    lengths: NDArray[np.float64],
-    middle: NDArray[np.int64],
-) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+def _halved(triangles: Ints, edge: Longs, lengths: Floats, middle: Longs) -> tuple[Ints, Longs]:
     """The pieces of the triangles, halved at the longest edge, and each half at its cut edge; and their rows."""
     side = _longest(lengths, edge)
     rows = np.arange(len(triangles))
@@ -149,7 +130,7 @@ def _halved(
     ab, bc, ca = (middle[edge[rows, (side + k) % 3]] for k in range(3))
     pieces, of = [], []
 
-    def add(which: NDArray[np.bool_], *corners: NDArray[np.int64]) -> None:
+    def add(which: Flags, *corners: Longs) -> None:
         pieces.append(np.column_stack(corners)[which])
         of.append(rows[which])
 

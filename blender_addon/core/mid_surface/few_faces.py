@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
+from ..machine.progress import Progress
 from ..united import united
+from .carried_sheets import CarriedSheets
 from .crossed_borders import crossings
 from .sheet_faces import SheetFaces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from .carried_sheets import CarriedSheets
 
 _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
 _WIDENED = 5  # so many times at most triangles are kept farther around a border that crosses itself
@@ -40,9 +37,7 @@ def few_faces(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> 
     return _without_crossings(faces, sheets)
 
 
-def _near(
-    sheets: CarriedSheets, places: NDArray[np.float64], part: NDArray[np.int32], reach: float
-) -> NDArray[np.bool_]:
+def _near(sheets: CarriedSheets, places: Floats, part: Ints, reach: float) -> Flags:
     """(t,) the triangles of sheets with a corner so many mean thicknesses around one of their places, or nearest."""
     found = np.zeros(len(sheets.part), bool)
     for place, number in zip(places, part, strict=True):
@@ -74,7 +69,7 @@ def _without_crossings(faces: SheetFaces, sheets: CarriedSheets) -> SheetFaces:
     )
 
 
-def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
+def _groups(sheets: CarriedSheets) -> Longs:
     """(parts,) the same number for sheets that share vertices."""
     parts = int(sheets.part.max()) + 1
     pairs = np.column_stack((np.repeat(sheets.part, 3), parts + sheets.triangles.ravel()))
@@ -82,7 +77,7 @@ def _groups(sheets: CarriedSheets) -> NDArray[np.int64]:
 
 
 def _reduced(
-    sheets: CarriedSheets, label: NDArray[np.int32], wanted: int, progress: Progress | None
+    sheets: CarriedSheets, label: Ints, wanted: int, progress: Progress | None
 ) -> SheetFaces:
     """The sheets with so many vertices, or all where that cannot be; triangles of different labels are not joined."""
     with own_errors() as module:
@@ -107,7 +102,7 @@ def _reduced(
     return SheetFaces(places, offsets, corners, sheet[part])
 
 
-def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
+def _radii(sheets: CarriedSheets) -> Floats:
     """(v,) the radii by which the sheets are simplified: one for all where each sheet has one thickness."""
     least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
     np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
@@ -119,7 +114,7 @@ def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
     return radius
 
 
-def _nodes(sheets: CarriedSheets, label: NDArray[np.int32]) -> NDArray[np.int32]:
+def _nodes(sheets: CarriedSheets, label: Ints) -> Ints:
     """The vertices where borders of triangles with one label meet."""
     triangles = sheets.triangles.astype(np.int64)
     ends = np.sort(

@@ -10,21 +10,22 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..axis.compute import Computation, compute_axis
 from ..axis.polygon_triangles import polygon_triangles
 from ..errors import InvalidInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.native import own_errors
 from ..machine.progress import Progress
-from ..samples.chosen import OfChosenSamples
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.density import percent
 from ..samples.sample_spacing import mean_spacing
 from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, ThicknessSettings
 from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
 from ..shape.sharp_angle import sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
@@ -39,14 +40,7 @@ from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
 from .thick_faces import ThickFaces, thick_faces
 from .thick_joints import joined_by_thick_parts
-from .thin_sheets import thin_sheets
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..shape.shape import Shape
-    from .thin_sheets import ThinSheets
+from .thin_sheets import ThinSheets, thin_sheets
 
 _HALF_OF_WALL = 1.0  # the feature size between parallel walls, in feature sizes
 _UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
@@ -93,12 +87,12 @@ class MidSurface(OfChosenSamples):
     seconds : float
     """
 
-    vertices: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
-    part: NDArray[np.int32]
-    thickness: NDArray[np.float64]
-    of_vertices: NDArray[np.float64]
+    vertices: Floats
+    face_offsets: Ints
+    face_vertices: Ints
+    part: Ints
+    thickness: Floats
+    of_vertices: Floats
     sheets: int
     share: float
     thick: ThickFaces | None
@@ -108,12 +102,12 @@ class MidSurface(OfChosenSamples):
     seconds: float
 
     @property
-    def triangles(self) -> NDArray[np.int32]:
+    def triangles(self) -> Ints:
         """(c - 2 f, 3) the triangles of face after face."""
         return polygon_triangles(self.vertices, self.face_offsets, self.face_vertices)
 
     @property
-    def face_of_triangles(self) -> NDArray[np.int64]:
+    def face_of_triangles(self) -> Longs:
         return np.repeat(np.arange(len(self.part)), np.diff(self.face_offsets) - 2)
 
 
@@ -250,7 +244,7 @@ def _check_size(size: float, area: float, quads: bool) -> None:
         )
 
 
-def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
+def _are_curved(sheets: CarriedSheets, vectors: Floats) -> bool:
     """Whether a sheet is not flat, given (t, 3) normals that are as long as triangles are large."""
     total = np.zeros((int(sheets.part.max()) + 1, 3))
     np.add.at(total, sheets.part, vectors)
@@ -295,7 +289,7 @@ def _with_thickness(
     )
 
 
-def _centres(made: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _centres(made: SheetFaces) -> tuple[Floats, Floats]:
     """(f, 3) the middle of each face, and (f,) its area."""
     count, triangles = len(made.part), made.triangles
     areas = 0.5 * unit_normals(made.vertices[triangles])[1]
@@ -306,7 +300,7 @@ def _centres(made: SheetFaces) -> tuple[NDArray[np.float64], NDArray[np.float64]
     return centre / np.where(whole > 0.0, whole, 1.0)[:, None], whole
 
 
-def _with_volume(made: SheetFaces, thickness: NDArray[np.float64]) -> SheetFaces:
+def _with_volume(made: SheetFaces, thickness: Floats) -> SheetFaces:
     """The faces without sheets that have no thickness anywhere: crumbs of rims that lie in the surface of the solid."""
     thick = np.zeros(int(made.part.max()) + 1, bool)
     thick[made.part[thickness > 0.0]] = True
@@ -341,7 +335,7 @@ def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
     )
 
 
-def _torn(triangles: NDArray[np.int32], found: Computation, thin: ThinSheets) -> tuple[str, ...]:
+def _torn(triangles: Ints, found: Computation, thin: ThinSheets) -> tuple[str, ...]:
     pieces, level = _pieces(triangles), found.axis.level
     if level is None or pieces <= level.betti[0]:
         return ()
@@ -356,14 +350,12 @@ def _torn(triangles: NDArray[np.int32], found: Computation, thin: ThinSheets) ->
     )
 
 
-def _pieces(triangles: NDArray[np.int32]) -> int:
+def _pieces(triangles: Ints) -> int:
     label = united(int(triangles.max()) + 1, np.concatenate((triangles[:, :2], triangles[:, 1:])))
     return len(np.unique(label[triangles[:, 0]]))
 
 
-def _lengths(
-    sheets: CarriedSheets, parts: int
-) -> Callable[[NDArray[np.float64], NDArray[np.int32]], NDArray[np.float64]]:
+def _lengths(sheets: CarriedSheets, parts: int) -> Callable[[Floats, Ints], Floats]:
     """The function of places and their sheets that returns the thickness there.
 
     It is that of the nearest corner. In a sheet of uneven thickness it changes from there as around that corner.
@@ -372,7 +364,7 @@ def _lengths(
     places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
     slopes, uneven = _slopes_at_corners(sheets), _are_uneven(sheets, parts)
 
-    def lengths(queries: NDArray[np.float64], of: NDArray[np.int32]) -> NDArray[np.float64]:
+    def lengths(queries: Floats, of: Ints) -> Floats:
         found = np.zeros(len(queries))
         for number in range(parts):
             rows, sites = np.flatnonzero(of == number), np.flatnonzero(part == number)
@@ -390,7 +382,7 @@ def _lengths(
     return lengths
 
 
-def _are_uneven(sheets: CarriedSheets, parts: int) -> NDArray[np.bool_]:
+def _are_uneven(sheets: CarriedSheets, parts: int) -> Flags:
     """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
     area = unit_normals(sheets.vertices[sheets.triangles])[1]
     thickness = sheets.at_corners.mean(axis=1)
@@ -401,7 +393,7 @@ def _are_uneven(sheets: CarriedSheets, parts: int) -> NDArray[np.bool_]:
     return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
 
 
-def _slopes_at_corners(sheets: CarriedSheets) -> NDArray[np.float64]:
+def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
     """(3 t, 3) the slope of the thickness around each corner: the mean, by area, of the triangles of its sheet."""
     key = sheets.part[:, None] * np.int64(len(sheets.vertices)) + sheets.triangles
     pairs, row = np.unique(key, return_inverse=True)

@@ -4,23 +4,18 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees
 _FLAT = 0.9  # the cosine between the two triangles, at least
 
 
-def paired(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], part: NDArray[np.int32]
-) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+def paired(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Ints]:
     """(k, 4) quadrilaterals and, with -1 as their fourth corner, triangles; and (k,) their sheet.
 
     Each keeps the turn of its triangles. The same triangles give the same pairs.
@@ -34,7 +29,7 @@ def paired(
     return np.concatenate((quads[chosen], single)).astype(np.int64), of
 
 
-def least_sines(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def least_sines(corners: Floats) -> Floats:
     """(q,) the least sine of an angle of each of (q, 4, 3) quadrilaterals; not above 0 where one is dented."""
     ahead = np.roll(corners, -1, axis=1) - corners
     ahead /= np.maximum(np.linalg.norm(ahead, axis=2), np.finfo(float).tiny)[:, :, None]
@@ -44,9 +39,7 @@ def least_sines(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(dot(turns, whole[:, None]).min(axis=1))
 
 
-def _candidates(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], part: NDArray[np.int32]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+def _candidates(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Longs, Floats]:
     """(k, 2) pairs of triangles of one sheet that share an edge, (k, 4) what they are together, (k,) how good that is.
 
     Those that make a bad quadrilateral are left out.
@@ -74,7 +67,7 @@ def _candidates(
     return np.column_stack((a, b))[good].astype(np.int64), quads[good], value[good]
 
 
-def _matched(count: int, pairs: NDArray[np.int64], value: NDArray[np.float64]) -> NDArray[np.int64]:
+def _matched(count: int, pairs: Longs, value: Floats) -> Longs:
     """(count,) the partner of each triangle, -1 where it has none: the best pairs first, then exchanges for more."""
     partner = np.full(count, -1)
     beside: list[list[int]] = [[] for _ in range(count)]

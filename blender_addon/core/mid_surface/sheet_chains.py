@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,11 +23,11 @@ class Chain:
         The first follows the last.
     """
 
-    rows: NDArray[np.int64]
+    rows: Longs
     closed: bool
 
 
-def chains_of(ends: NDArray[np.int64], part: NDArray[np.int32]) -> list[Chain]:
+def chains_of(ends: Longs, part: Ints) -> list[Chain]:
     """Return the chains of directed edges, (k, 2) rows of vertices, within each sheet.
 
     Chains end where not exactly one edge of the sheet comes and one goes.
@@ -53,7 +50,7 @@ def chains_of(ends: NDArray[np.int64], part: NDArray[np.int32]) -> list[Chain]:
     return found
 
 
-def _followed(row: int, after: NDArray[np.int64], seen: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _followed(row: int, after: Longs, seen: Flags) -> Longs:
     rows = []
     while row >= 0 and not seen[row]:
         seen[row] = True
@@ -62,7 +59,7 @@ def _followed(row: int, after: NDArray[np.int64], seen: NDArray[np.bool_]) -> ND
     return np.array(rows, np.int64)
 
 
-def runs_of(apart: NDArray[np.bool_]) -> Iterator[NDArray[np.int64]]:
+def runs_of(apart: Flags) -> Iterator[Longs]:
     """Yield the places in a chain of each stretch, given (k,) whether an edge is apart from the one before it."""
     begins = np.flatnonzero(apart)
     first = begins[0] if len(begins) else 0
@@ -71,9 +68,7 @@ def runs_of(apart: NDArray[np.bool_]) -> Iterator[NDArray[np.int64]]:
         yield from np.split(places, begins[1:] - first)
 
 
-def nearest_along(
-    lengths: NDArray[np.float64], sites: NDArray[np.int64], closed: bool
-) -> NDArray[np.int64]:
+def nearest_along(lengths: Floats, sites: Longs, closed: bool) -> Longs:
     """(k,) the site that is nearest along a chain to each edge, given their (k,) lengths; sites ascend."""
     middles = np.cumsum(lengths) - 0.5 * lengths
     along = middles[sites]
@@ -87,9 +82,7 @@ def nearest_along(
     return np.asarray(sites[np.where(is_after, after, before)])
 
 
-def without_ways_back(
-    places: NDArray[np.float64], ways: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def without_ways_back(places: Floats, ways: Floats) -> Floats:
     """(k + 1, 3) places along a stretch of which none lies behind one before it, given the (k, 3) ways of its edges.
 
     The first and the last stay. A place that is behind waits where the stretch has come to.

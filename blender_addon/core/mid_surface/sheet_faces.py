@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..axis.polygon_triangles import polygon_triangles
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,21 +26,21 @@ class SheetFaces:
         The sheet of each face.
     """
 
-    vertices: NDArray[np.float64]
-    offsets: NDArray[np.int32]
-    corners: NDArray[np.int32]
-    part: NDArray[np.int32]
+    vertices: Floats
+    offsets: Ints
+    corners: Ints
+    part: Ints
 
     @cached_property
-    def triangles(self) -> NDArray[np.int32]:
+    def triangles(self) -> Ints:
         """(c - 2 f, 3) those of face after face."""
         return polygon_triangles(self.vertices, self.offsets, self.corners)
 
     @cached_property
-    def of(self) -> NDArray[np.int64]:
+    def of(self) -> Longs:
         """The face of each triangle."""
         return np.repeat(np.arange(len(self.part)), np.diff(self.offsets) - 2)
 
-    def ring(self, face: int) -> NDArray[np.float64]:
+    def ring(self, face: int) -> Floats:
         """(k, 3) the places round a face."""
         return self.vertices[self.corners[self.offsets[face] : self.offsets[face + 1]]]

@@ -10,19 +10,15 @@ is in both walls, which is the corner.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..small_matrices import dot
 from .sheet_chains import Chain, chains_of, nearest_along, runs_of, without_ways_back
 from .sheet_walls import TOUCHES, Walls, reflex_distances
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .thin_sheets import ThinSheets
+from .thin_sheets import ThinSheets
 
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
 _STEPS = (
@@ -52,14 +48,14 @@ class RimEdges:
         Unit vectors along each edge and out of its sheet.
     """
 
-    ends: NDArray[np.int64]
-    part: NDArray[np.int32]
-    middles: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    along: NDArray[np.float64]
-    out: NDArray[np.float64]
+    ends: Longs
+    part: Ints
+    middles: Floats
+    radius: Floats
+    along: Floats
+    out: Floats
 
-    def of(self, rows: NDArray[np.bool_]) -> RimEdges:
+    def of(self, rows: Flags) -> RimEdges:
         return RimEdges(*(getattr(self, field.name)[rows] for field in fields(self)))
 
 
@@ -78,11 +74,11 @@ class Rims:
 
     edges: RimEdges
     chains: list[Chain]
-    kind: NDArray[np.int64]
-    places: NDArray[np.float64]
-    normals: NDArray[np.float64]
+    kind: Longs
+    places: Floats
+    normals: Floats
 
-    def planes(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    def planes(self) -> tuple[Longs, Floats, Floats]:
         """Vertices, and places and normals of planes through them."""
         has = self.normals.any(axis=1)
         corner = self.kind == _CORNER
@@ -92,15 +88,13 @@ class Rims:
         normals = (self.normals[has],) * 2 + (self.edges.along[corner],) * 2
         return vertex, np.concatenate(places), np.concatenate(normals)
 
-    def touched(self, count: int) -> NDArray[np.bool_]:
+    def touched(self, count: int) -> Flags:
         """(v,) the vertices at rims, given the number of all."""
         found = np.zeros(count, bool)
         found[self.edges.ends] = True
         return found
 
-    def without_lost_corners(
-        self, straight: NDArray[np.float64], vertices: NDArray[np.float64], walls: Walls
-    ) -> NDArray[np.float64]:
+    def without_lost_corners(self, straight: Floats, vertices: Floats, walls: Walls) -> Floats:
         """The vertices, but where they were if the planes of two walls meet far away and a wall is not there.
 
         Between a hole and a rim that are nearer to each other than the plate is thick, the sheet ends. The walls of
@@ -127,7 +121,7 @@ class Rims:
         found[lost] = straight[lost]
         return found
 
-    def without_ways_back(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    def without_ways_back(self, vertices: Floats) -> Floats:
         """The vertices, of which none goes back along a wall."""
         found = vertices.copy()
         across = dot(self.edges.along, self.normals)[:, None] * self.normals
@@ -142,17 +136,13 @@ class Rims:
                 found[around] = without_ways_back(found[around], ways[rows])
         return found
 
-    def _longest(self, rows: NDArray[np.int64], vertices: NDArray[np.float64]) -> int:
+    def _longest(self, rows: Longs, vertices: Floats) -> int:
         ends = vertices[self.edges.ends[rows]]
         return int(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).argmax())
 
 
 def rims(
-    sheets: ThinSheets,
-    straight: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    radii: NDArray[np.float64],
-    walls: Walls,
+    sheets: ThinSheets, straight: Floats, normals: Floats, radii: Floats, walls: Walls
 ) -> Rims:
     """Find the rims of straight sheets and where they end.
 
@@ -178,9 +168,7 @@ def rims(
     return Rims(edges, chains, kind, places, ahead)
 
 
-def single_edges(
-    triangles: NDArray[np.int32], count: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+def single_edges(triangles: Ints, count: int) -> tuple[Longs, Longs, Longs]:
     """(k, 2) the edges of one triangle, (k,) that triangle and (k,) its side, given the number of vertices."""
     edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int64)
     sides = np.sort(edges.reshape(-1, 2), axis=1)
@@ -191,12 +179,7 @@ def single_edges(
     return edges[triangle, side], triangle, side
 
 
-def _edges(
-    sheets: ThinSheets,
-    straight: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    radii: NDArray[np.float64],
-) -> RimEdges:
+def _edges(sheets: ThinSheets, straight: Floats, normals: Floats, radii: Floats) -> RimEdges:
     ends, triangle, side = single_edges(sheets.triangles, len(straight))
     way = straight[ends[:, 1]] - straight[ends[:, 0]]
     length = np.linalg.norm(way, axis=1)
@@ -214,9 +197,7 @@ def _edges(
     )
 
 
-def _ends_of(
-    edges: RimEdges, walls: Walls
-) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+def _ends_of(edges: RimEdges, walls: Walls) -> tuple[Longs, Floats, Floats]:
     """Return the kind of thing at which each edge ends, and the place and normal of the plane there.
 
     That is the wall that a ray out of the sheet meets. At the inner corner of a rim all balls touch the same reflex
@@ -246,9 +227,7 @@ def _ends_of(
     return kind, places, normals
 
 
-def _are_nearest(
-    rim: RimEdges, places: NDArray[np.float64], met: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _are_nearest(rim: RimEdges, places: Floats, met: Flags) -> Flags:
     """(k,) the edges that met walls not much farther than those of edges beside them: others are steps of the rim."""
     away = np.where(met, np.linalg.norm(places - rim.middles, axis=1), np.inf)
     least = np.full(int(rim.ends.max(initial=-1)) + 1, np.inf)
@@ -256,9 +235,7 @@ def _are_nearest(
     return np.asarray(met & (away <= _STEPS * least[rim.ends].min(axis=1)))
 
 
-def _walls_ahead(
-    rim: RimEdges, walls: Walls, back: float = 0.0
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _walls_ahead(rim: RimEdges, walls: Walls, back: float = 0.0) -> tuple[Floats, Floats]:
     """(k, 3) where rays out of the sheets meet a wall, and (k, 3) its unit normal; 0 where there is none.
 
     Rays start so many radii back within the sheet. Two more rays beside each tell the direction of the wall.
@@ -286,9 +263,7 @@ def _walls_ahead(
     return hits[0], normals
 
 
-def _apart(
-    rows: NDArray[np.int64], closed: bool, kind: NDArray[np.int64], normals: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _apart(rows: Longs, closed: bool, kind: Longs, normals: Floats) -> Flags:
     """(k,) the edges whose wall is not that of the edge before; the first of an open chain is one."""
     one, two = np.roll(rows, 1), rows
     turns = dot(normals[one], normals[two]) < _SMOOTH
@@ -297,13 +272,7 @@ def _apart(
     return np.asarray(apart)
 
 
-def _like(
-    chain: Chain,
-    edges: RimEdges,
-    kind: NDArray[np.int64],
-    normals: NDArray[np.float64],
-    straight: NDArray[np.float64],
-) -> NDArray[np.int64]:
+def _like(chain: Chain, edges: RimEdges, kind: Longs, normals: Floats, straight: Floats) -> Longs:
     """(k,) the edge whose wall each edge of a chain takes: its own in long stretches, else that of the nearest.
 
     -1 where that is too far away.
@@ -324,13 +293,8 @@ def _like(
 
 
 def _long(
-    rows: NDArray[np.int64],
-    closed: bool,
-    edges: RimEdges,
-    kind: NDArray[np.int64],
-    normals: NDArray[np.float64],
-    straight: NDArray[np.float64],
-) -> NDArray[np.bool_]:
+    rows: Longs, closed: bool, edges: RimEdges, kind: Longs, normals: Floats, straight: Floats
+) -> Flags:
     """(k,) the edges of stretches that are long enough to tell where their sheet ends."""
     long = np.zeros(len(rows), bool)
     for run in runs_of(_apart(rows, closed, kind, normals)):

@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this share of its radius touches it
 
@@ -20,12 +17,12 @@ TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this s
 class Walls:
     """The faces of a solid, outward, and the rows of the ends of its reflex edges, (e, 2)."""
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    reflex: NDArray[np.int32]
+    points: Floats
+    triangles: Ints
+    reflex: Ints
 
 
-def reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.float64]:
+def reflex_distances(points: Floats, walls: Walls) -> Floats:
     """(n,) how far points are from the nearest reflex edge; infinite where the solid has none."""
     if not len(walls.reflex) or not len(points):
         return np.full(len(points), np.inf)

@@ -5,22 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
-    from .sheet_faces import SheetFaces
+from ..shape.shape import Shape
+from .sheet_faces import SheetFaces
 
 _BESIDE = 0.6  # thicknesses from a sheet its walls lie at most; half of one where it is straight
 _STEPS = 6  # of a grid of places on each triangle
 
-Lengths = Callable[["NDArray[np.float64]", "NDArray[np.int32]"], "NDArray[np.float64]"]
+Lengths = Callable[["Floats", "Ints"], "Floats"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +30,12 @@ class ThickFaces:
     face_vertices : (3 t,) int32
     """
 
-    vertices: NDArray[np.float64]
-    face_offsets: NDArray[np.int32]
-    face_vertices: NDArray[np.int32]
+    vertices: Floats
+    face_offsets: Ints
+    face_vertices: Ints
 
     @property
-    def triangles(self) -> NDArray[np.int32]:
+    def triangles(self) -> Ints:
         return self.face_vertices.reshape(-1, 3)
 
 
@@ -71,7 +67,7 @@ def thick_faces(shape: Shape, sheets: SheetFaces, lengths: Lengths) -> ThickFace
     return ThickFaces(shape.points[used], offsets, row.reshape(-1).astype(np.int32))
 
 
-def _grid() -> NDArray[np.float64]:
+def _grid() -> Floats:
     """(k, 3) weights of the corners at the middles of the cells of a triangle that is cut evenly."""
     first, second = np.indices((_STEPS, _STEPS)).reshape(2, -1)
     inside = first + second < _STEPS

@@ -3,17 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
+from ..axis.medial_axis import MedialAxis
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..axis.medial_axis import MedialAxis
-    from .thin_sheets import ThinSheets
+from .thin_sheets import ThinSheets
 
 # So many times as large as that in the wall is a ball of what is not thin. Where walls cross, the ball touches their
 # reflex edges and has 1.4 times the radius.
@@ -49,15 +44,13 @@ def joined_by_thick_parts(axis: MedialAxis, thin: ThinSheets) -> int:
     return len(np.unique(pieces[walls])) - len(np.unique(joined[walls]))
 
 
-def _ends(axis: MedialAxis, corners: NDArray[np.bool_]) -> NDArray[np.int32]:
+def _ends(axis: MedialAxis, corners: Flags) -> Ints:
     """(k, 2) the first vertex of its facet and the vertex, at each of some corners."""
     first = np.repeat(axis.face_vertices[axis.face_offsets[:-1]], np.diff(axis.face_offsets))
     return np.column_stack((first, axis.face_vertices))[corners]
 
 
-def _means(
-    values: NDArray[np.float64], label: NDArray[np.int64], rows: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def _means(values: Floats, label: Longs, rows: Longs) -> Floats:
     """(n,) the mean over those rows that have each label."""
     total = np.bincount(label[rows], values[rows], len(values))
     return total / np.maximum(np.bincount(label[rows], minlength=len(values)), 1)

@@ -4,22 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..axis.directions import corners_after, facet_areas, facet_normals
 from ..axis.facet_triangles import triangulate_facets
-from ..axis.medial_axis import ON_CREASE
+from ..axis.medial_axis import ON_CREASE, LevelValues, MedialAxis
+from ..axis.structure import Structure
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..axis.medial_axis import LevelValues, MedialAxis
-    from ..axis.structure import Structure
 
 # Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
 # the way along the sheet.
@@ -60,22 +56,20 @@ class ThinSheets:
     parts : int
     """
 
-    vertices: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    at_edge: NDArray[np.bool_]
-    triangles: NDArray[np.int32]
-    part: NDArray[np.int32]
-    facet: NDArray[np.int64]
-    facing: NDArray[np.bool_]
-    sliver: NDArray[np.bool_]
-    normals: NDArray[np.float64]
-    slopes: NDArray[np.float64]
+    vertices: Floats
+    radius: Floats
+    at_edge: Flags
+    triangles: Ints
+    part: Ints
+    facet: Longs
+    facing: Flags
+    sliver: Flags
+    normals: Floats
+    slopes: Floats
     parts: int
 
 
-def thin_sheets(
-    axis: MedialAxis, patches: NDArray[np.int32] | None, least_width: float
-) -> ThinSheets:
+def thin_sheets(axis: MedialAxis, patches: Ints | None, least_width: float) -> ThinSheets:
     """Choose the sheets whose walls face each other, and which are much wider than they are thick.
 
     Parameters
@@ -129,9 +123,7 @@ def thin_sheets(
     )
 
 
-def _slopes(
-    axis: MedialAxis, areas: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _slopes(axis: MedialAxis, areas: Floats, normals: Floats) -> Floats:
     """(f, 3) the mean gradient of the radius over each facet, from the radii along its border."""
     here, there = axis.face_vertices, axis.face_vertices[corners_after(axis.face_offsets)]
     facet = np.repeat(np.arange(len(areas)), np.diff(axis.face_offsets))
@@ -141,7 +133,7 @@ def _slopes(
     return total / np.where(areas > 0.0, areas, np.inf)[:, None]
 
 
-def _even(axis: MedialAxis) -> NDArray[np.bool_]:
+def _even(axis: MedialAxis) -> Flags:
     """(f,) the facets whose radii hardly differ: others are at rims or where sheets meet."""
     starts, corners = axis.face_offsets[:-1], axis.face_vertices
     radii, places = axis.radius[corners], axis.vertices[corners]
@@ -150,16 +142,14 @@ def _even(axis: MedialAxis) -> NDArray[np.bool_]:
     return np.asarray(most - least <= _EVEN * np.linalg.norm(size, axis=1))
 
 
-def _own_parts(
-    axis: MedialAxis, structure: Structure, patches: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+def _own_parts(axis: MedialAxis, structure: Structure, patches: Ints) -> tuple[Ints, Flags]:
     """(f,) the sheet of each facet, and (f,) whether the facet lies between the patches of that sheet.
 
     The structure gives small sheets to a neighbour; their facets go back to a neighbour between the same patches as
     they, where there is one.
     """
 
-    def between(facets: NDArray[np.int64], parts: NDArray[np.int32]) -> NDArray[np.bool_]:
+    def between(facets: Longs, parts: Ints) -> Flags:
         first, second = (patches[axis.generators[facets, end]] for end in range(2))
         low, high = (structure.part_patches[parts, end, None] for end in range(2))
         straight = (first == low).any(axis=1) & (second == high).any(axis=1)
@@ -183,14 +173,12 @@ def _own_parts(
         own[pairs[:, 0]] = True
 
 
-def _slivers(axis: MedialAxis, areas: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _slivers(axis: MedialAxis, areas: Floats) -> Flags:
     """(f,) the facets that are hardly more than a line."""
     return np.asarray(4.0 * np.pi * areas < _SLIVER * _around(axis) ** 2)
 
 
-def _strips(
-    axis: MedialAxis, areas: NDArray[np.float64], walls: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _strips(axis: MedialAxis, areas: Floats, walls: Flags) -> Flags:
     """(f,) the facets without a width between those of walls: four sheets that meet in one line are joined in pairs."""
     starts, corners = axis.face_offsets[:-1], axis.face_vertices
     sizes = np.diff(axis.face_offsets)
@@ -201,7 +189,7 @@ def _strips(
     return np.asarray(narrow & np.logical_and.reduceat(at_wall[corners], starts))
 
 
-def _around(axis: MedialAxis) -> NDArray[np.float64]:
+def _around(axis: MedialAxis) -> Floats:
     """(f,) the length of the border of each facet."""
     here, there = axis.face_vertices, axis.face_vertices[corners_after(axis.face_offsets)]
     ends = axis.vertices[there] - axis.vertices[here]
@@ -209,12 +197,8 @@ def _around(axis: MedialAxis) -> NDArray[np.float64]:
 
 
 def _walls(
-    axis: MedialAxis,
-    structure: Structure,
-    areas: NDArray[np.float64],
-    facing: NDArray[np.bool_],
-    least_width: float,
-) -> NDArray[np.bool_]:
+    axis: MedialAxis, structure: Structure, areas: Floats, facing: Flags, least_width: float
+) -> Flags:
     """(p,) which sheets are walls: most of their area lies between walls that face each other, and they are wide."""
     parts, part = structure.parts, structure.part
     whole = np.bincount(part, areas, parts)
@@ -226,12 +210,8 @@ def _walls(
 
 
 def _in_wide_pieces(
-    axis: MedialAxis,
-    kept: NDArray[np.bool_],
-    areas: NDArray[np.float64],
-    at_edge: NDArray[np.bool_],
-    least_width: float,
-) -> NDArray[np.bool_]:
+    axis: MedialAxis, kept: Flags, areas: Floats, at_edge: Flags, least_width: float
+) -> Flags:
     """(f,) the facets of pieces of the kept ones that are as wide as walls are at least.
 
     Where frayed facets were taken off, crumbs of a sheet may be left beside it, within the wall at its rim.
@@ -255,9 +235,7 @@ def _in_wide_pieces(
     return np.asarray(wide[piece])
 
 
-def _borders(
-    axis: MedialAxis, part: NDArray[np.int32] | NDArray[np.int64], parts: int
-) -> NDArray[np.float64]:
+def _borders(axis: MedialAxis, part: Ints | Longs, parts: int) -> Floats:
     """(p,) the length of the border of each sheet."""
     edges, of_corner = _edges(axis)
     owner = np.repeat(part, np.diff(axis.face_offsets)).astype(np.int64)
@@ -268,17 +246,15 @@ def _borders(
     return np.asarray(np.bincount(owner, lengths, parts), np.float64)
 
 
-def _edges(axis: MedialAxis) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def _edges(axis: MedialAxis) -> tuple[Ints, Ints]:
     with own_errors() as module:
         return cast(
-            "tuple[NDArray[np.int32], NDArray[np.int32]]",
+            "tuple[Ints, Ints]",
             module.polygon_edges(axis.face_offsets, axis.face_vertices, len(axis.vertices)),
         )
 
 
-def _without_frayed(
-    axis: MedialAxis, kept: NDArray[np.bool_], facing: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _without_frayed(axis: MedialAxis, kept: Flags, facing: Flags) -> Flags:
     """(f,) the facets without those whose walls do not face each other, as far as they can be taken off from a border.
 
     A facet goes with an edge that no other facet has, so the topology stays.

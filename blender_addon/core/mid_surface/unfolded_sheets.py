@@ -3,24 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _ROUNDS = 30  # at most; a fold goes in a few, and what is left lies between vertices that stay
 
 
-def unfolded(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    normals: NDArray[np.float64],
-    stays: NDArray[np.bool_],
-) -> NDArray[np.float64]:
+def unfolded(vertices: Floats, triangles: Ints, normals: Floats, stays: Flags) -> Floats:
     """Move vertices of triangles that are turned over to the middle of those around them, along the sheet.
 
     Parameters
@@ -53,9 +44,7 @@ def unfolded(
     return found
 
 
-def _to_middle(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int32], moves: NDArray[np.bool_]
-) -> NDArray[np.float64]:
+def _to_middle(vertices: Floats, triangles: Ints, moves: Flags) -> Floats:
     """(v, 3) the way from each vertex that moves to the mean of those around it."""
     total, sums = np.zeros(len(vertices)), np.zeros_like(vertices)
     for step in (1, 2):

@@ -10,10 +10,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..files.extensions import extension_of
 from ..files.rounding import check_stl
 from ..files.whole_file import write_whole
@@ -21,11 +22,7 @@ from ..files.write_triangles import write_stl
 from ..small_matrices import placed
 from .mid_surface import MidSurface
 from .quad_pairs import least_sines
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .thick_faces import ThickFaces
+from .thick_faces import ThickFaces
 
 _DIGITS = 6  # thicknesses that agree in this many digits are one section
 _PER_LINE = 8
@@ -33,7 +30,7 @@ _LEAST_SINE = 0.2  # at the corners of an element with four; others are two tria
 
 
 def export_mid_surface(
-    found: MidSurface, path: str | os.PathLike[str], frame: NDArray[np.float64] | None = None
+    found: MidSurface, path: str | os.PathLike[str], frame: Floats | None = None
 ) -> Path:
     """Write a middle surface; the extension of `path` chooses the format.
 
@@ -69,7 +66,7 @@ def export_mid_surface(
     return written
 
 
-def _write_thick(thick: ThickFaces, path: Path, frame: NDArray[np.float64] | None) -> None:
+def _write_thick(thick: ThickFaces, path: Path, frame: Floats | None) -> None:
     points = thick.vertices if frame is None else placed(thick.vertices, frame)
     write_whole(path, lambda stream: write_stl(points, thick.triangles, stream))
 
@@ -79,7 +76,7 @@ def thick_path(path: Path) -> Path:
     return path.with_name(f"{path.stem}_thick.stl")
 
 
-def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+def _write_inp(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     """Shell elements with a set for each sheet and a section for each thickness.
 
     Faces with four corners have eight nodes, S8R, and the triangles of all others six, S6.
@@ -111,9 +108,7 @@ def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
     stream.write(("\n".join(lines) + "\n").encode("ascii"))
 
 
-def _elements(
-    found: MidSurface,
-) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int32], NDArray[np.int64]]:
+def _elements(found: MidSurface) -> tuple[Ints, Longs, Ints, Longs]:
     """(q, 4) faces that are good quadrilaterals and (q,) their rows, (t, 3) triangles of all others and (t,) theirs."""
     four = np.flatnonzero(np.diff(found.face_offsets) == 4)
     quads = found.face_vertices[found.face_offsets[four, None] + np.arange(4)]
@@ -123,15 +118,13 @@ def _elements(
     return quads[good], four[good], triangles[others], of[others]
 
 
-def _set_of(name: str, rows: NDArray[np.int64]) -> list[str]:
+def _set_of(name: str, rows: Longs) -> list[str]:
     numbers = [str(row + 1) for row in rows.tolist()]
     starts = range(0, len(numbers), _PER_LINE)
     return [f"*ELSET, ELSET={name}", *(", ".join(numbers[i : i + _PER_LINE]) for i in starts)]
 
 
-def _with_middles(
-    points: NDArray[np.float64], faces: tuple[NDArray[np.int32], ...]
-) -> tuple[NDArray[np.float64], list[NDArray[np.int64]]]:
+def _with_middles(points: Floats, faces: tuple[Ints, ...]) -> tuple[Floats, list[Longs]]:
     """The points and the middles of edges, and the rows of the middles after each corner of faces of some kinds."""
     ends = [np.stack((each, np.roll(each, -1, axis=1)), axis=2).reshape(-1, 2) for each in faces]
     edges, edge = np.unique(np.sort(np.concatenate(ends), axis=1), axis=0, return_inverse=True)
@@ -141,7 +134,7 @@ def _with_middles(
     return np.concatenate((points, points[edges].mean(axis=1))), split
 
 
-def _write_obj(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+def _write_obj(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     """Polygons in a group for each sheet; the thickness of each face is in a comment before it, where it changes."""
     lines = [f"v {x:.12g} {y:.12g} {z:.12g}" for x, y, z in points.tolist()]
     corners = found.face_vertices + 1
@@ -159,7 +152,7 @@ def _write_obj(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
     stream.write(("\n".join(lines) + "\n").encode("ascii"))
 
 
-def _write_ply(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+def _write_ply(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     triangles, of = found.triangles, found.face_of_triangles
     header = f"""ply
 format binary_little_endian 1.0
@@ -185,11 +178,11 @@ end_header
     stream.write(faces.tobytes())
 
 
-def _write_stl(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+def _write_stl(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     write_stl(points, found.triangles, stream)
 
 
-def _write_csv(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+def _write_csv(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     """A row for each triangle of the `.stl`, in its order."""
     middles = points[found.triangles].mean(axis=1).tolist()
     of = found.face_of_triangles
@@ -202,7 +195,7 @@ def _write_csv(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
     stream.write(text.encode("ascii"))
 
 
-MID_SURFACE_FORMATS: dict[str, Callable[[MidSurface, NDArray[np.float64], BinaryIO], None]] = {
+MID_SURFACE_FORMATS: dict[str, Callable[[MidSurface, Floats, BinaryIO], None]] = {
     ".inp": _write_inp,
     ".obj": _write_obj,
     ".ply": _write_ply,

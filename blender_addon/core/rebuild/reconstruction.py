@@ -5,21 +5,17 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
 from ..samples.sides import cocone_warnings
 from ..samples.thinning import thinned_rows
 from ..shape.triangle_faces import TriangleFaces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +39,8 @@ class Reconstruction(TriangleFaces):
     seconds : float
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int32]
+    vertices: Floats
+    triangles: Ints
     points: int
     duplicates: int
     off_surface: int
@@ -56,9 +52,7 @@ class Reconstruction(TriangleFaces):
 
 
 def reconstruct(
-    points: NDArray[np.float64],
-    progress: Progress | None = None,
-    limit: MemoryLimit = WHAT_IS_FREE,
+    points: Floats, progress: Progress | None = None, limit: MemoryLimit = WHAT_IS_FREE
 ) -> Reconstruction:
     """Compute the watertight surface through samples (Dey & Goswami 2003).
 
@@ -100,9 +94,7 @@ def reconstruct(
     )
 
 
-def _within(
-    points: NDArray[np.float64], limit: MemoryLimit
-) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+def _within(points: Floats, limit: MemoryLimit) -> tuple[Floats, tuple[str, ...]]:
     """Return the points that the limit allows, and a warning if these are fewer."""
     try:
         limit.check(len(points))

@@ -4,27 +4,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..axis.medial_axis import MedialAxis
+from ..arrays import Floats, Ints
+from ..axis.compute import Computation
+from ..axis.medial_axis import LevelValues, MedialAxis
 from ..axis.polygon_triangles import axis_triangles, polygon_triangles
-from ..axis.structure import CREASE
+from ..axis.structure import CREASE, Structure
 from ..axis.turning import with_facets_turned
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
+from ..shape.shape import Shape
 from ..small_matrices import length_of
 from .solid_difference import PointDifference, difference_of_points
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..axis.compute import Computation
-    from ..axis.medial_axis import LevelValues
-    from ..axis.structure import Structure
-    from ..shape.shape import Shape
 
 _INNER = 1  # value of `_medial.Side`
 _SPACING = 1 / 400  # the distance of points on the solid, as a share of the diagonal
@@ -34,10 +30,10 @@ _SPACING = 1 / 400  # the distance of points on the solid, as a share of the dia
 class SphereMesh:
     """The arrays that the compiled module takes, in its order."""
 
-    vertices: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    edges: NDArray[np.int32]
+    vertices: Floats
+    radius: Floats
+    triangles: Ints
+    edges: Ints
 
     @property
     def arrays(self) -> tuple[NDArray[Any], ...]:
@@ -154,7 +150,7 @@ def _single(axis: MedialAxis) -> MedialAxis:
     return replace(axis, vertices=_rounded(axis.vertices), radius=_rounded(axis.radius))
 
 
-def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rounded(values: Floats) -> Floats:
     share, exponent = np.frexp(np.ascontiguousarray(values))
     return np.ldexp(share.astype(np.float32).astype(np.float64), exponent)
 
@@ -174,7 +170,7 @@ def sphere_mesh(axis: MedialAxis) -> SphereMesh:
     )
 
 
-def _edges(axis: MedialAxis) -> NDArray[np.int32]:
+def _edges(axis: MedialAxis) -> Ints:
     return np.ascontiguousarray(axis.edges, np.int32).reshape(-1, 2)
 
 
@@ -200,7 +196,7 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
     used = shape.points[np.unique(shape.triangles)] if len(shape.triangles) else shape.points
     diagonal = length_of(np.ptp(used, axis=0))
 
-    def signed(queries: NDArray[np.float64]) -> NDArray[np.float64]:
+    def signed(queries: Floats) -> Floats:
         with own_errors() as module:
             return np.asarray(module.solid_distances(queries, *mesh.arrays))
 
@@ -210,11 +206,7 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
 
 
 def _as_axis(
-    vertices: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    face_offsets: NDArray[np.int32],
-    face_vertices: NDArray[np.int32],
-    edges: NDArray[np.int32],
+    vertices: Floats, radius: Floats, face_offsets: Ints, face_vertices: Ints, edges: Ints
 ) -> MedialAxis:
     count = len(face_offsets) - 1
     always = np.full(count, np.inf)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..shape.shape import Shape
@@ -76,9 +76,7 @@ def solid_difference(first: Shape, second: Shape) -> SolidDifference:
 
 
 def difference_of_points(
-    shape: Shape,
-    points: NDArray[np.float64],
-    signed: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    shape: Shape, points: Floats, signed: Callable[[Floats], Floats]
 ) -> PointDifference:
     """Compare a surface with a solid that is given by points on its surface and signed distances.
 
@@ -114,7 +112,7 @@ def difference_of_points(
     )
 
 
-def _distances(of: Shape, to: Shape) -> NDArray[np.float64]:
+def _distances(of: Shape, to: Shape) -> Floats:
     """(SAMPLES + v,) distances from samples of one surface, and then from its vertices, to another surface."""
     used = np.unique(of.triangles)
     queries = np.concatenate([_samples(of), of.points[used]])
@@ -122,7 +120,7 @@ def _distances(of: Shape, to: Shape) -> NDArray[np.float64]:
         return np.asarray(module.surface_distances(queries, to.points, to.triangles))
 
 
-def _samples(shape: Shape) -> NDArray[np.float64]:
+def _samples(shape: Shape) -> Floats:
     """(SAMPLES, 3) points of a surface, evenly by area."""
     a, b, c = (shape.points[shape.triangles[:, corner]] for corner in range(3))
     until = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))

@@ -10,22 +10,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
+from ..skeleton.skeleton import Skeleton
 from ..small_matrices import length_of
 from .joints import joints_of
 from .roll import upright, ups_of
-from .sides import sides_of
-from .tree import trees_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..skeleton.skeleton import Skeleton
-    from .sides import Sides
-    from .tree import Chain
+from .sides import Sides, sides_of
+from .tree import Chain, trees_of
 
 _HIPS = 0.75  # the pelvis is at most this many radii above the place between the hips
 _BEFORE = 0.5  # a limb has what lies this many radii before its head, so that its skin bends evenly on both sides
@@ -45,9 +39,9 @@ class Stubs:
     bone : (s,) int32
     """
 
-    branch: NDArray[np.int32]
-    along: NDArray[np.float64]
-    bone: NDArray[np.int32]
+    branch: Ints
+    along: Floats
+    bone: Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,17 +70,17 @@ class Bones:
     stubs : Stubs
     """
 
-    head: NDArray[np.float64]
-    tail: NDArray[np.float64]
-    head_radius: NDArray[np.float64]
-    tail_radius: NDArray[np.float64]
-    up: NDArray[np.float64]
-    parent: NDArray[np.int32]
-    connected: NDArray[np.bool_]
-    branch: NDArray[np.int32]
-    along: NDArray[np.float64]
-    chain: NDArray[np.int32]
-    to_tip: NDArray[np.bool_]
+    head: Floats
+    tail: Floats
+    head_radius: Floats
+    tail_radius: Floats
+    up: Floats
+    parent: Ints
+    connected: Flags
+    branch: Ints
+    along: Floats
+    chain: Ints
+    to_tip: Flags
     stubs: Stubs
 
     @property
@@ -122,7 +116,7 @@ class Body:
 
 
 def bones_of(
-    skeleton: Skeleton, per_limb: int = 0, flats: NDArray[np.float64] | None = None
+    skeleton: Skeleton, per_limb: int = 0, flats: Floats | None = None
 ) -> tuple[Bones, list[Body]]:
     """Return the bones of a skeleton, and its connected parts, the largest first.
 
@@ -143,11 +137,11 @@ def bones_of(
 class _Maker:
     """Makes bones from the root outwards."""
 
-    def __init__(self, per_limb: int, flats: NDArray[np.float64]) -> None:
+    def __init__(self, per_limb: int, flats: Floats) -> None:
         self._per_limb, self._flats = per_limb, flats
-        self._rows: list[tuple[NDArray[np.float64], ...]] = []
+        self._rows: list[tuple[Floats, ...]] = []
         self._ints: list[tuple[int, int, int, bool, bool]] = []
-        self._ups: list[NDArray[np.float64]] = []
+        self._ups: list[Floats] = []
         self._stubs: list[tuple[int, float, float, int]] = []
         self._chains = 0
 
@@ -224,7 +218,7 @@ class _Maker:
             self._stubs.append((chain.branch, float(low), float(high), bone))
 
     def _add_along(
-        self, body: Body, number: int, marks: NDArray[np.float64], parent: int, goes_on: bool
+        self, body: Body, number: int, marks: Floats, parent: int, goes_on: bool
     ) -> None:
         chain = body.tree[number]
         points, radius, along = chain.at(marks)
@@ -243,8 +237,8 @@ class _Maker:
         self,
         found: list[int],
         branch: int,
-        joints: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
-        ups: NDArray[np.float64],
+        joints: tuple[Floats, Floats, Floats],
+        ups: Floats,
         parent: int,
         connected: bool,
         to_tip: bool,
@@ -303,7 +297,7 @@ def _from_hips(tree: list[Chain], sides: Sides) -> list[Chain]:
     ]
 
 
-def _started_at(chain: Chain, place: NDArray[np.float64]) -> Chain:
+def _started_at(chain: Chain, place: Floats) -> Chain:
     """Return a chain that starts at another place."""
     more = length_of(chain.points[0] - place)
     return replace(
@@ -372,9 +366,7 @@ def _begin(chain: Chain, goes_on: bool) -> float | None:
     return float(marks[room[0]]) if len(room) else None
 
 
-def _long_enough(
-    head: NDArray[np.float64], tail: NDArray[np.float64], radius: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _long_enough(head: Floats, tail: Floats, radius: Floats) -> Floats:
     """Return the tail of the last bone of a limb, farther out if the bone is shorter than the balls at its ends."""
     along = tail - head
     length = length_of(along)

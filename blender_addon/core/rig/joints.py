@@ -8,16 +8,11 @@ than the balls at its ends.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .tree import Chain
+from .tree import Chain
 
 ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
 LONG = 10.0  # a bone is at most this many mean radii long, as forearms are
@@ -28,7 +23,7 @@ _STEPS, _MOST_STEPS = (
 )  # joints are looked for at this many steps; 2, 3, 4, 6 and 8 divide these
 
 
-def joints_of(chain: Chain, begin: float, count: int = 0) -> NDArray[np.float64]:
+def joints_of(chain: Chain, begin: float, count: int = 0) -> Floats:
     """Return the joints between bones, as lengths from the start of the chain, with both ends, ascending.
 
     Parameters
@@ -60,14 +55,12 @@ def joints_of(chain: Chain, begin: float, count: int = 0) -> NDArray[np.float64]
     return marks[best]
 
 
-def _fits(
-    joints: NDArray[np.int64], deviation: NDArray[np.float64], long: NDArray[np.float64]
-) -> bool:
+def _fits(joints: Longs, deviation: Floats, long: Floats) -> bool:
     rows = joints[:-1], joints[1:]
     return bool((deviation[rows] <= 1.0).all() and (long[rows] <= 1.0).all())
 
 
-def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDArray[np.float64]:
+def _deviations(points: Floats, radius: Floats) -> Floats:
     """Return how far a bone from a point to a later one is off those between at most, (n, n), in allowed ones."""
     count = len(points)
     found = np.zeros((count, count))
@@ -84,7 +77,7 @@ def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDA
     return found
 
 
-def _cheapest(cost: NDArray[np.float64], bones: int) -> NDArray[np.int64] | None:
+def _cheapest(cost: Floats, bones: int) -> Longs | None:
     """Return the joints of a number of bones, (bones + 1,), that cost least, or None if there is no room for them."""
     count = len(cost)
     later = np.triu(np.ones(cost.shape, bool), 1)

@@ -11,16 +11,10 @@ mirror image; chains between forks are called trunk. Left means positive X, as i
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ..arrays import Floats
 from ..small_matrices import dot
+from .bones import Body
 from .roll import upright
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from .bones import Body
 
 _REACH = 0.5  # of the way of the hind legs: legs reach at least so far
 
@@ -83,7 +77,7 @@ def _arms_and_legs(
     def length(pair: dict[str, int]) -> float:
         return body.tree[pair[".L"]].length
 
-    def mean(pair: dict[str, int], row: int) -> NDArray[np.float64]:
+    def mean(pair: dict[str, int], row: int) -> Floats:
         left, right = (body.tree[number].points[row] for number in pair.values())
         return (left + right) / 2
 

@@ -7,12 +7,9 @@ and tails are longer than arms. A skeleton without a fork starts at its thicker 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from ..skeleton.skeleton import Skeleton
+from ..skeleton.skeleton import Skeleton
 
 _AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this share of its radius
 

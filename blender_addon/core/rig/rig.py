@@ -5,25 +5,21 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..errors import DegenerateInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings, SkeletonSettings
+from ..shape.shape import Shape
 from ..skeleton.compute import Skeletonization, compute_skeleton
 from ..small_matrices import dot, times
 from .bones import Body, Bones, bones_of
 from .names import limbs_of, names_of
 from .roll import flats_of
 from .weights import axis_weights, edges_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..settings import Settings, SkeletonSettings
-    from ..shape.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +48,9 @@ class Rig:
     bones: Bones
     names: list[str]
     limbs: list[list[int]]
-    frame: NDArray[np.float64]
-    bone: NDArray[np.int32]
-    weight: NDArray[np.float64]
+    frame: Floats
+    bone: Ints
+    weight: Floats
     warnings: tuple[str, ...]
     seconds: float
 
@@ -66,7 +62,7 @@ def compute_rig(
     per_limb: int = 0,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
-    ends: NDArray[np.float64] | None = None,
+    ends: Floats | None = None,
     shown: Settings | None = None,
 ) -> Rig:
     """Compute bones along the skeleton of a shape; most parameters and errors are those of `compute_skeleton`.
@@ -105,7 +101,7 @@ def compute_rig(
     )
 
 
-def _frame_of(body: Body) -> NDArray[np.float64]:
+def _frame_of(body: Body) -> Floats:
     """Return the least rotation, and a translation along X of that, with which a body is symmetric in X."""
     frame = np.eye(4)
     if body.sides.found:
@@ -115,7 +111,7 @@ def _frame_of(body: Body) -> NDArray[np.float64]:
     return frame
 
 
-def _turn_of_x(normal: NDArray[np.float64]) -> NDArray[np.float64]:
+def _turn_of_x(normal: Floats) -> Floats:
     """Return the least rotation that takes X to a direction whose largest component is positive."""
     across = np.cross((1.0, 0.0, 0.0), normal)
     x, y, z = across

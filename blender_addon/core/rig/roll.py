@@ -8,33 +8,22 @@ of these axes.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
 from ..curves.smooth_line import marks_of
+from ..skeleton.parts import Places
+from ..skeleton.skeleton import Skeleton
 from ..small_matrices import dot, stretches
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..skeleton.parts import Places
-    from ..skeleton.skeleton import Skeleton
-    from .sides import Sides
-    from .tree import Chain
+from .sides import Sides
+from .tree import Chain
 
 _BENT = 0.25  # a limb is bent if it leaves a straight line by this share of its mean radius
 _FLAT = 0.75  # a limb is flat if it is this many times as thick as wide, or less
 _ALONG = 0.1  # the sine of the angle below which a bone counts as parallel to an axis
 
 
-def ups_of(
-    chain: Chain,
-    joints: NDArray[np.float64],
-    sides: Sides,
-    within: bool,
-    flat: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def ups_of(chain: Chain, joints: Floats, sides: Sides, within: bool, flat: Floats) -> Floats:
     """Return the third axis of each bone along a chain, (n, 3).
 
     Parameters
@@ -60,9 +49,7 @@ def ups_of(
     return _unit(up - (up * along).sum(axis=1)[:, None] * along)
 
 
-def flats_of(
-    skeleton: Skeleton, places: Places, vertices: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def flats_of(skeleton: Skeleton, places: Places, vertices: Floats) -> Floats:
     """Return the normal of the sheet in each branch, (b, 3), across which the surface lies nearest; 0 of round ones."""
     found = np.zeros((skeleton.count, 3))
     for branch, rows in enumerate(skeleton.branches):
@@ -79,7 +66,7 @@ def flats_of(
     return found
 
 
-def _thinnest(across: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
+def _thinnest(across: Floats, along: Floats) -> Floats:
     """Return the direction in which (n, 3) spokes at right angles to a limb are short, or 0 if it is round."""
     size, axes, _ = stretches(across)
     least = int(np.argmax(np.abs(dot(axes, along))))  # the axis of the limb itself
@@ -87,14 +74,14 @@ def _thinnest(across: NDArray[np.float64], along: NDArray[np.float64]) -> NDArra
     return axes[thin] if size[thin] <= _FLAT * size[wide] else np.zeros(3)
 
 
-def upright(normal: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def upright(normal: Floats) -> tuple[Floats, Floats]:
     """Return the direction in a plane that is nearest to Z, or to Y if Z is its normal, and the front."""
     axis = np.eye(3)[2 if abs(normal[2]) < 0.9 else 1]
     up = _unit(axis - dot(axis, normal) * normal)
     return up, np.cross(normal, up)
 
 
-def _hinge(chain: Chain) -> NDArray[np.float64] | None:
+def _hinge(chain: Chain) -> Floats | None:
     """Return the axis about which a chain is bent outside of the ball at its fork, or None if it is straight."""
     begin = min(chain.rim, chain.length / 2)
     points = chain.at(np.linspace(begin, chain.length, 33))[0]
@@ -107,12 +94,12 @@ def _hinge(chain: Chain) -> NDArray[np.float64] | None:
     return _unit(np.cross(away[far.argmax()], chord))
 
 
-def _front(normal: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
+def _front(normal: Floats, along: Floats) -> Floats:
     """Return the front of a body whose left is along a normal, or up for bones that look to the front."""
     up, front = upright(normal)
     return up if abs(float(dot(along, front))) > 0.7 else front
 
 
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _unit(vectors: Floats) -> Floats:
     length = np.sqrt(dot(vectors, vectors))[..., None]
     return vectors / np.maximum(length, np.finfo(float).tiny)

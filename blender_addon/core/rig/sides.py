@@ -9,16 +9,12 @@ is that across X if no other one is better, or across another axis, or aslant if
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Longs
 from ..small_matrices import dot, length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .tree import Chain
+from .tree import Chain
 
 _ALIKE = 1.6  # the lengths of two like limbs outside their forks, and the mean radii, differ by at most this factor
 _STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork
@@ -48,10 +44,10 @@ class Sides:
         Whether the shape shows the plane; if not, it has neither pairs nor chains within.
     """
 
-    normal: NDArray[np.float64]
-    origin: NDArray[np.float64]
-    partner: NDArray[np.int64]
-    within: NDArray[np.bool_]
+    normal: Floats
+    origin: Floats
+    partner: Longs
+    within: Flags
     found: bool
 
     def is_left(self, chain: Chain) -> bool:
@@ -86,7 +82,7 @@ def _cost(tree: list[Chain], sides: Sides) -> float:
     return float(alone / (1.0 - _ENOUGH) + _STRAIGHT * off.mean())
 
 
-def _between(tree: list[Chain], sides: Sides) -> NDArray[np.float64]:
+def _between(tree: list[Chain], sides: Sides) -> Floats:
     """Return the normal of the plane halfway between the starts of all pairs, or the same one if there are none."""
     rows = [row for row in np.flatnonzero(sides.partner >= 0) if sides.is_left(tree[row])]
     across = [_start(tree[row]) - _start(tree[sides.partner[row]]) for row in rows]
@@ -95,18 +91,18 @@ def _between(tree: list[Chain], sides: Sides) -> NDArray[np.float64]:
     return _signed(np.sum(across, axis=0))
 
 
-def _signed(normal: NDArray[np.float64]) -> NDArray[np.float64]:
+def _signed(normal: Floats) -> Floats:
     """Return a vector with length 1 and a positive largest component."""
     normal = normal / max(length_of(normal), _TINY)
     return normal * np.sign(normal[np.argmax(np.abs(normal))])
 
 
-def _none(tree: list[Chain], origin: NDArray[np.float64]) -> Sides:
+def _none(tree: list[Chain], origin: Floats) -> Sides:
     count = len(tree)
     return Sides(np.eye(3)[0], origin, np.full(count, -1), np.zeros(count, bool), False)
 
 
-def _normals(tree: list[Chain]) -> list[NDArray[np.float64]]:
+def _normals(tree: list[Chain]) -> list[Floats]:
     """Return the normals to try: the axes, then those between the starts of two like limbs of one fork."""
     found = list(np.eye(3))
     for a, first in enumerate(tree):
@@ -128,12 +124,12 @@ def _outside(chain: Chain) -> tuple[float, float]:
     return chain.length - begin, float(radius.mean())
 
 
-def _start(chain: Chain) -> NDArray[np.float64]:
+def _start(chain: Chain) -> Floats:
     """Return the place where a chain leaves the balls at its fork."""
     return chain.at(np.array([chain.rim]))[0][0]
 
 
-def _paired(tree: list[Chain], normal: NDArray[np.float64], origin: NDArray[np.float64]) -> Sides:
+def _paired(tree: list[Chain], normal: Floats, origin: Floats) -> Sides:
     count = len(tree)
     partner, within = np.full(count, -1), np.zeros(count, bool)
     starts = np.array([_start(chain) for chain in tree])
@@ -172,9 +168,7 @@ def _leaves(tree: list[Chain]) -> list[int]:
     return found
 
 
-def _parents_fit(
-    first: int, second: int, partner: NDArray[np.int64], within: NDArray[np.bool_]
-) -> bool:
+def _parents_fit(first: int, second: int, partner: Longs, within: Flags) -> bool:
     """Return whether two chains leave the same place in the plane, or places that are a pair."""
     if first < 0 or second < 0:
         return first == second

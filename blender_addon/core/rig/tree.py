@@ -5,17 +5,12 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
+from ..skeleton.skeleton import Skeleton
 from .pelvis import pelvis_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..skeleton.skeleton import Skeleton
-
 
 _FAR = 4.0  # chains are compared up to this many radii from their fork
 _SAMPLES = 65  # at this many places
@@ -43,14 +38,14 @@ class Chain:
     """
 
     branch: int
-    points: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    along: NDArray[np.float64]
+    points: Floats
+    radius: Floats
+    along: Floats
     parent: int
     from_root: float
     to_tip: bool
     rim: float = 0.0
-    marks: NDArray[np.float64] = field(init=False)
+    marks: Floats = field(init=False)
 
     def __post_init__(self) -> None:
         steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
@@ -66,9 +61,7 @@ class Chain:
         square = self.radius**2
         return float(np.pi * (np.diff(self.marks) * (square[:-1] + square[1:]) / 2).sum())
 
-    def at(
-        self, marks: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def at(self, marks: Floats) -> tuple[Floats, Floats, Floats]:
         """Return points, radii and shares of the branch at some lengths from the start."""
         points = np.column_stack(
             [np.interp(marks, self.marks, self.points[:, axis]) for axis in range(3)]
@@ -159,9 +152,7 @@ def _rim(tree: list[Chain], number: int) -> float:
     return float(marks[last] + (marks[last + 1] - marks[last]) * before / (before - after))
 
 
-def _near(
-    chain: Chain, radius: float, mark: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _near(chain: Chain, radius: float, mark: float) -> tuple[Floats, Floats]:
     """Return points and radii of a chain near one of its ends."""
     far = _FAR * radius
     marks = np.linspace(max(0.0, mark - far), min(chain.length, mark + far), _SAMPLES)

@@ -8,17 +8,12 @@ limb moves the skin of another one. Then they diffuse along the surface, as heat
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..curves.spread import Graph, graph_of, spread
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..skeleton.parts import Places
-    from .bones import Bones
+from ..skeleton.parts import Places
+from .bones import Bones
 
 MOST = 4  # a vertex follows at most this many bones
 _DIFFUSED = 0.5  # weights diffuse so far, as a share of the radius of the limb
@@ -27,8 +22,8 @@ _CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved up to this error, in at mo
 
 
 def axis_weights(
-    bones: Bones, places: Places, vertices: NDArray[np.float64], edges: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    bones: Bones, places: Places, vertices: Floats, edges: Ints
+) -> tuple[Ints, Floats]:
     """Compute the weights of vertices.
 
     Parameters
@@ -61,13 +56,13 @@ def axis_weights(
     return bone.astype(np.int32), found / found.sum(axis=1, keepdims=True)
 
 
-def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
+def edges_of(triangles: Ints) -> Ints:
     """Return the edges of triangles, each once, (e, 2)."""
     pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return np.unique(pairs, axis=0)
 
 
-def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
+def _along_branches(weight: Floats, bones: Bones, places: Places) -> Longs:
     """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none.
 
     A stub follows the bone at whose end it lies.
@@ -95,12 +90,7 @@ def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -
 
 
 def _blend(
-    weight: NDArray[np.float64],
-    bones: Bones,
-    places: Places,
-    before: int,
-    after: int,
-    length: NDArray[np.float64],
+    weight: Floats, bones: Bones, places: Places, before: int, after: int, length: Floats
 ) -> None:
     """Blend two bones around their joint, up to the radius there and at most half of each bone."""
     sign = np.sign(bones.along[after, 1] - bones.along[after, 0])
@@ -113,12 +103,7 @@ def _blend(
     weight[here, after], weight[here, before] = follows, 1.0 - follows
 
 
-def _to_nearest(
-    weight: NDArray[np.float64],
-    chain: NDArray[np.int64],
-    bones: Bones,
-    vertices: NDArray[np.float64],
-) -> None:
+def _to_nearest(weight: Floats, chain: Longs, bones: Bones, vertices: Floats) -> None:
     """Let vertices of parts without a branch follow the bone whose middle is nearest."""
     middle = (bones.head + bones.tail) / 2
     for row in np.flatnonzero(chain < 0):
@@ -127,11 +112,7 @@ def _to_nearest(
 
 
 def _share_with_parents(
-    weight: NDArray[np.float64],
-    chain: NDArray[np.int64],
-    bones: Bones,
-    vertices: NDArray[np.float64],
-    edges: NDArray[np.int32],
+    weight: Floats, chain: Longs, bones: Bones, vertices: Floats, edges: Ints
 ) -> None:
     """Fade out each chain and its descendants, towards the rim of their part, in favour of the parent bone.
 
@@ -152,9 +133,7 @@ def _share_with_parents(
         weight[rows, hangs_on] += (block - left).sum(axis=1)
 
 
-def _rim(
-    here: NDArray[np.bool_], vertices: NDArray[np.float64], edges: NDArray[np.int32], width: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def _rim(here: Flags, vertices: Floats, edges: Ints, width: float) -> tuple[Longs, Floats]:
     """Return the vertices of a part of the surface within a width of its rim, and the share that they keep.
 
     The width is at most half of the largest distance from the rim, so that some vertices of a short part keep all.
@@ -169,14 +148,14 @@ def _rim(
     return rows, _smoothstep(away[rows] / width)
 
 
-def _first_bones(bones: Bones) -> NDArray[np.int64]:
+def _first_bones(bones: Bones) -> Longs:
     """Return the first bone of each chain, (chains,)."""
     first = np.zeros(bones.chain.max() + 1, np.int64)
     first[bones.chain[::-1]] = np.arange(bones.count)[::-1]
     return first
 
 
-def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _all_below(name: int, bones: Bones, first: Longs) -> Flags:
     """Return a mask, (chains,), of a chain and its descendants."""
     found = np.zeros(len(first), bool)
     found[name] = True
@@ -186,7 +165,7 @@ def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.
     return found
 
 
-def _diffuse(weight: NDArray[np.float64], graph: Graph, bones: Bones) -> None:
+def _diffuse(weight: Floats, graph: Graph, bones: Bones) -> None:
     """Let weights diffuse along the edges, in one implicit step of the heat equation; the sum of each vertex stays.
 
     They remain between 0 and 1, and a surface with twice as many vertices gets the same.
@@ -208,19 +187,19 @@ def _diffuse(weight: NDArray[np.float64], graph: Graph, bones: Bones) -> None:
 class _Flow:
     """Solves (kept + Laplacian) x = right by conjugate gradients, each unknown scaled by its diagonal."""
 
-    def __init__(self, graph: Graph, along: NDArray[np.float64], kept: NDArray[np.float64]) -> None:
+    def __init__(self, graph: Graph, along: Floats, kept: Floats) -> None:
         self._to, self._along = graph.to, along
         self._joined = np.flatnonzero(np.diff(graph.first))
         self._first = graph.first[self._joined]
         self._diagonal = kept.copy()
         self._diagonal[self._joined] += np.add.reduceat(along, self._first)
 
-    def _times(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _times(self, x: Floats) -> Floats:
         found = self._diagonal * x
         found[self._joined] -= np.add.reduceat(self._along * x[self._to], self._first)
         return found
 
-    def solved(self, right: NDArray[np.float64], start: NDArray[np.float64]) -> NDArray[np.float64]:
+    def solved(self, right: Floats, start: Floats) -> Floats:
         x = start.copy()
         rest = right - self._times(x)
         way = scaled = rest / self._diagonal
@@ -238,6 +217,6 @@ class _Flow:
         return x
 
 
-def _smoothstep(x: NDArray[np.float64]) -> NDArray[np.float64]:
+def _smoothstep(x: Floats) -> Floats:
     x = np.clip(x, 0.0, 1.0)
     return x * x * (3.0 - 2.0 * x)

@@ -4,19 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..cover.ball_cover import BallCover, cover_by_balls
+from ..cover.ball_cover import BallCover, Balls, cover_by_balls
 from ..cover.tight_capsules import Capsules
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import BallSettings, CoverMode, Settings
-
-if TYPE_CHECKING:
-    from ..cover.ball_cover import Balls
-    from ..shape.shape import Shape
+from ..shape.shape import Shape
 
 
 @dataclass(frozen=True)

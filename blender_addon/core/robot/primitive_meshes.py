@@ -4,23 +4,21 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..portable_cosine import cosine
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+Mesh = tuple[Floats, Ints]
 
-    Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 _AROUND = 48  # sides of a cylinder, which is 0.2 % wider than the round one
 _RINGS = 24  # of a ball
 
 
-def box_mesh(size: NDArray[np.float64]) -> Mesh:
+def box_mesh(size: Floats) -> Mesh:
     """Return a box round the origin; `size` is (3,)."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float64)
     quads = np.array(
@@ -64,5 +62,5 @@ def _turned(profile: list[tuple[float, float]]) -> Mesh:
     return points, np.concatenate([*caps, *map(_triangles, quads)]).astype(np.int32)
 
 
-def _triangles(quads: NDArray[np.int64]) -> NDArray[np.int32]:
+def _triangles(quads: Longs) -> Ints:
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)

@@ -10,26 +10,23 @@ from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
+from ..cover.ball_cover import Balls
 from ..cover.robot_links import write_collisions
 from ..cover.write_balls import check_robot
 from ..errors import MedialAxisError, ReadError
 from ..files.read_shape import read_shape
+from ..machine.memory_limit import MemoryLimit
 from ..portable_cosine import cosine
 from ..small_matrices import times
-from .primitive_meshes import ball_mesh, box_mesh, cylinder_mesh
+from .primitive_meshes import Mesh, ball_mesh, box_mesh, cylinder_mesh
 from .xml_spans import Element, elements_of, replaced
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..cover.ball_cover import Balls
-    from ..machine.memory_limit import MemoryLimit
-    from .primitive_meshes import Mesh
 
 
 class LinkGeometry(NamedTuple):
@@ -49,8 +46,8 @@ class LinkGeometry(NamedTuple):
     """
 
     name: str
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
+    points: Floats
+    triangles: Ints
     pieces: int
     balls_only: bool = False
     problem: str = ""
@@ -64,7 +61,7 @@ class RobotFile:
     links: tuple[LinkGeometry, ...]
 
     @cached_property
-    def frame(self) -> NDArray[np.float64]:
+    def frame(self) -> Floats:
         """Return the identity: links have frames of their own."""
         return np.identity(4)
 
@@ -170,7 +167,7 @@ def _placed(mesh: Mesh, origin: Element | None) -> Mesh:
 
 def _numbers(
     element: Element, name: str, count: int, usual: str = "", signed: bool = False
-) -> NDArray[np.float64]:
+) -> Floats:
     """Return the numbers of an attribute: `count` finite ones, above 0 unless signed."""
     text = element.attributes.get(name, usual)
     try:

@@ -4,22 +4,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..settings import OPTIONS, SidesFrom
+from numpy.typing import NDArray
+
+from ..arrays import Floats, Ints
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import OPTIONS, Settings, SidesFrom
+from ..shape.shape import Shape
+from ..shape.solid_faces import SolidFaces
+from .density import Density
 from .levels import Levels
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..machine.memory_limit import MemoryLimit
-    from ..machine.progress import Progress
-    from ..settings import Settings
-    from ..shape.shape import Shape
-    from ..shape.solid_faces import SolidFaces
-    from .density import Density
-    from .walls import Walls
+from .walls import Walls
 
 
 @dataclass(frozen=True)
@@ -115,24 +112,24 @@ class AnalysedSamples:
         How far outside of the surface that is meant the samples lie; radii are less by this.
     """
 
-    points: NDArray[np.float64]
-    kinds: NDArray[np.int32] | None
-    normals: NDArray[np.float64] | None
+    points: Floats
+    kinds: Ints | None
+    normals: Floats | None
     analysis: Any
     density: Density
     spacing: float = 0.0
     buried: int = 0
     closing: int = 0
     walls: Walls | None = None
-    rows: NDArray[np.int32] | None = None
+    rows: Ints | None = None
     key: str = ""
     by_faces: tuple[int, int, int] | None = None
     levels: Levels = field(default_factory=Levels)
-    faces: NDArray[np.int32] | None = None
+    faces: Ints | None = None
     solid: SolidFaces | None = None
-    patches: NDArray[np.int32] | None = None
-    apart: NDArray[np.float64] | None = None
-    partners: NDArray[np.int32] | None = None
+    patches: Ints | None = None
+    apart: Floats | None = None
+    partners: Ints | None = None
     offset: float = 0.0
 
     @property

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..arrays import Floats, Ints
 from ..machine import native
 from ..machine.beside import Beside
 from ..settings import SidesFrom
@@ -14,19 +15,13 @@ from ..shape.solid_faces import solid_faces
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
 from .patches import patches_of
-from .surface_samples import apart_of, are_paired
+from .surface_samples import FaceSamples, apart_of, are_paired
 from .walls import Places, Walls, find_walls, middles_of_faces
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from .surface_samples import FaceSamples
 
 
 def used_by_sides(
-    source: SidesFrom, triangles: NDArray[np.int32], normals: NDArray[np.float64] | None
-) -> tuple[NDArray[np.int32] | None, NDArray[np.float64] | None]:
+    source: SidesFrom, triangles: Ints, normals: Floats | None
+) -> tuple[Ints | None, Floats | None]:
     """Return triangles and normals, each None unless it decides between inside and outside."""
     return (
         triangles if source is SidesFrom.SURFACE else None,
@@ -125,11 +120,7 @@ def analyse_samples(
 
 
 def _analysis(
-    request: Request,
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64] | None,
-    sides: Sides,
-    progress: Any,
+    request: Request, points: Floats, normals: Floats | None, sides: Sides, progress: Any
 ) -> Any:
     """Return the `_medial.MedialAnalysis` of (n, 3) points; `progress` is a `_medial.Progress`."""
     shape = request.shape

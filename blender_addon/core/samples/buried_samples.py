@@ -6,19 +6,17 @@ The solid is the region where the winding number of the faces is above one half,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..shape.nearness import near
+from ..shape.shape import Shape
 from ..shape.triangles import some_of, unit_normals
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 # The distance from the surface at which its two sides are tested, as a share of the spacing.
 _OFF = 1e-3
@@ -32,12 +30,8 @@ _BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, 
 
 
 def find_bare(
-    shape: Shape,
-    feet: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    spacing: float,
-    gaps: bool = False,
-) -> tuple[NDArray[np.bool_], int]:
+    shape: Shape, feet: Floats, normals: Floats, spacing: float, gaps: bool = False
+) -> tuple[Flags, int]:
     """Mark the samples that are taken, (n,), and count those left out because the surface bounds nothing there.
 
     Samples in gaps too narrow for them are not taken either, but do not count.
@@ -67,12 +61,8 @@ def find_bare(
 
 
 def _outside_clefts(
-    shape: Shape,
-    feet: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    spacing: float,
-    buried: NDArray[np.bool_],
-) -> NDArray[np.bool_]:
+    shape: Shape, feet: Floats, normals: Floats, spacing: float, buried: Flags
+) -> Flags:
     """Mark the samples that are neither buried nor in clefts next to buried ones, (n,)."""
     with native.own_errors() as module:
         beside = np.flatnonzero(near(feet, feet[buried], _BESIDE * spacing))
@@ -114,7 +104,7 @@ def outer_share(shape: Shape, spacing: float) -> float:
 
 def sides_of_faces(
     shape: Shape, rows: NDArray[np.intp], spacing: float
-) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
+) -> tuple[Floats, Flags, Flags]:
     """Return (k,) twice the areas of some faces, whether they bound nothing, and whether because they lie in the solid.
 
     `spacing` is as in `bounding_share`.
@@ -132,9 +122,7 @@ def sides_of_faces(
     return areas, buried, inside
 
 
-def _are_buried(
-    shape: Shape, points: NDArray[np.float64], normals: NDArray[np.float64], off: float
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _are_buried(shape: Shape, points: Floats, normals: Floats, off: float) -> tuple[Flags, Flags]:
     """(n,) mark the points at which the surface bounds nothing, with those in gaps narrower than `off`, and without.
 
     Both sides are tested at the distance `off`, and closer where that is beyond a thin wall or gap. Walls and gaps no
@@ -153,9 +141,7 @@ def _are_buried(
     return narrow, found & narrow
 
 
-def on_flat_faces(
-    shape: Shape, found: Any, faces: NDArray[np.int32], spacing: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def on_flat_faces(shape: Shape, found: Any, faces: Ints, spacing: float) -> tuple[Floats, Floats]:
     """Return (n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
 
     Samples may follow the smooth surface, but `_medial.buried` tests the flat faces. Places on edges and corners are

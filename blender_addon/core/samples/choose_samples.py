@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine.cache import CACHE, key_of
@@ -18,6 +18,7 @@ from ..machine.progress import Progress
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.check_faces import check_faces, check_not_flat
 from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
 from ..shape.sharp_angle import sharp_angle_of
 from ..shape.wrapped_faces import without_wrap, wrap_reason, wrapped_shape
 from .analysed import AnalysedSamples, Request, Sides
@@ -33,10 +34,6 @@ from .sides import check_not_a_sheet, decided, resolve_sides, resolve_sides_of_s
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 from .topology_loop import are_close, closed, closes
-
-if TYPE_CHECKING:
-    from ..shape.shape import Shape
-
 
 _WRAPPING = 0.4  # of the analysis
 _PREPARING = 0.3  # of the analysis of points without faces

@@ -5,15 +5,13 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from ..machine.progress import Progress
-    from ..settings import SamplingMode
-    from ..shape.shape import Shape
-    from .analysed import AnalysedSamples, Sides
-    from .scan import Scan
-    from .worst_doubt import WorstDoubt
+from ..machine.progress import Progress
+from ..settings import SamplingMode
+from ..shape.shape import Shape
+from .analysed import AnalysedSamples, Sides
+from .scan import Scan
+from .worst_doubt import WorstDoubt
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..machine import native
-
-if TYPE_CHECKING:
-    from ..shape.shape import Shape
-    from .surface_samples import FaceSamples
+from ..shape.shape import Shape
+from .surface_samples import FaceSamples
 
 
 def close_openings(samples: FaceSamples, shape: Shape, seed: int, progress: Any) -> FaceSamples:

@@ -10,16 +10,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats
 from ..settings import Settings
 from ..shape.nearness import near
 from ..small_matrices import length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # No new pass is needed while at most this share of the samples is too sparse for the theorem.
 DENSE_ENOUGH = 0.1
@@ -53,21 +52,21 @@ class Density:
         epsilon counts as 0.
     """
 
-    points: NDArray[np.float64]
-    spacing: NDArray[np.float64]
-    feature_size: NDArray[np.float64]
-    edges: NDArray[np.float64]
+    points: Floats
+    spacing: Floats
+    feature_size: Floats
+    edges: Floats
     finest: float
     limit: float
-    paired: NDArray[np.bool_] | None = None
+    paired: Flags | None = None
 
     @cached_property
-    def at_edge(self) -> NDArray[np.bool_]:
+    def at_edge(self) -> Flags:
         """(k,) bool: samples so close to a sharp edge that the finest spacing is not dense enough there."""
         return near(self.points, self.edges, self.finest / self.limit)
 
     @cached_property
-    def epsilon(self) -> NDArray[np.float64]:
+    def epsilon(self) -> Floats:
         """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end, 0 at pairs."""
         known = np.isfinite(self.feature_size) & (self.feature_size > 0.0)
         unknown = np.full(len(self.spacing), np.inf)
@@ -129,7 +128,7 @@ class Density:
         return text
 
     @property
-    def _counted(self) -> NDArray[np.float64]:
+    def _counted(self) -> Floats:
         """The epsilon of the samples that count for shares and medians: those not at a sharp edge, if there are any."""
         return self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
 
@@ -143,12 +142,12 @@ class Density:
 
 def estimate(
     analysis: Any,
-    points: NDArray[np.float64],
-    edges: NDArray[np.float64],
+    points: Floats,
+    edges: Floats,
     finest: float,
     limit: float,
     most: int | None = None,
-    paired: NDArray[np.bool_] | None = None,
+    paired: Flags | None = None,
 ) -> Density:
     """Estimate the density of an analysis from the facets that the published thresholds select, whatever is shown.
 
@@ -199,5 +198,5 @@ def _figure(value: float) -> str:
     return f"{value:.2f}" if np.isfinite(value) else "unknown"
 
 
-def _mean(flags: NDArray[np.bool_]) -> float:
+def _mean(flags: Flags) -> float:
     return float(flags.mean()) if len(flags) else 0.0

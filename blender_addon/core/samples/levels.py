@@ -3,19 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 from weakref import WeakKeyDictionary
 
+from ..arrays import Ints
 from ..machine import native
 from ..settings import Form, Mesh, Settings
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..shape.solid_faces import SolidFaces
+from ..shape.solid_faces import SolidFaces
 
 
 class Levels:
@@ -47,7 +42,7 @@ class Levels:
         progress: Any | None,
         bodies: int | None = None,
         solid: SolidFaces | None = None,
-        partners: NDArray[np.int32] | None = None,
+        partners: Ints | None = None,
         places: bool = False,
     ) -> Any:
         """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.

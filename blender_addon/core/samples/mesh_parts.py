@@ -5,23 +5,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.bent_sheets import bent_sheets
 from ..shape.check_faces import check_not_flat
 from ..shape.outward_faces import OF_SHEETS, TURNED, outward_shape
+from ..shape.shape import Shape
 from .sample_spacing import first_pass
 from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 MOST_ROWS = 1000  # of the table of parts
 
@@ -135,10 +132,7 @@ def mesh_counts(shape: Shape) -> MeshCounts | None:
 
 
 def _table(
-    faces: NDArray[np.intp],
-    turned: NDArray[np.intp],
-    is_open: NDArray[np.bool_],
-    place: NDArray[np.uint8],
+    faces: NDArray[np.intp], turned: NDArray[np.intp], is_open: Flags, place: NDArray[np.uint8]
 ) -> tuple[PartCounts, ...]:
     return tuple(
         PartCounts(
@@ -203,14 +197,14 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
     raise open_sheet_error(gaps)
 
 
-def _are_of_bent_sheets(shape: Shape) -> tuple[NDArray[np.bool_], bool]:
+def _are_of_bent_sheets(shape: Shape) -> tuple[Flags, bool]:
     """Mark the faces of bent sheets, (m,), and whether these are all that count for something."""
     part, is_open = shape.connected
     found = bent_sheets(shape, part, len(is_open))[part] & (part >= 0)
     return found, bool(found.any() and (found | (part < 0)).all())
 
 
-def _leave_out(shape: Shape, of_sheets: NDArray[np.bool_]) -> Shape:
+def _leave_out(shape: Shape, of_sheets: Flags) -> Shape:
     if not of_sheets.any():
         return shape
     triangles = np.where(of_sheets[:, None], shape.triangles[:, :1], shape.triangles)

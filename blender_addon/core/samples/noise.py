@@ -3,14 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # The values of `_roughness`, and the standard deviations of the samples in spacings that cause them. They depend little
 # on the shape: an ellipsoid, a shell, a box and a plate differ by 3 % at most.
@@ -19,9 +15,7 @@ _KNOWN = ((0.0, 0.0), (0.048, 0.05), (0.091, 0.1), (0.132, 0.15), (0.169, 0.2), 
 _LOOKED_AT = 2000  # the number of samples that are measured, which determines the median to 3 %
 
 
-def noise_of(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], normals: NDArray[np.float64]
-) -> float:
+def noise_of(points: Floats, triangles: Ints, normals: Floats) -> float:
     """Estimate the standard deviation of samples from their surface, in spacings; at most 0.25.
 
     Where the normals were computed from the samples themselves, values above a fifth are underestimated.
@@ -38,9 +32,7 @@ def noise_of(
     return float(np.interp(_roughness(points, triangles, normals), rough, deviation))
 
 
-def _roughness(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], normals: NDArray[np.float64]
-) -> float:
+def _roughness(points: Floats, triangles: Ints, normals: Floats) -> float:
     """Return the median over an even selection of the samples.
 
     On a curved surface all samples of a neighbourhood lie off by the same amount, so the mean of the neighbours is
@@ -57,7 +49,7 @@ def _roughness(
     away = points[heads] - points[tails]
     count = np.bincount(tails, minlength=len(points))
 
-    def mean(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def mean(values: Floats) -> Floats:
         return np.bincount(tails, values, len(points)) / np.maximum(count, 1)
 
     height = mean(dot(away, normals[tails]))

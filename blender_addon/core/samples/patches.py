@@ -3,23 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ..arrays import Ints
 from ..machine import native
+from ..settings import Settings
+from ..shape.shape import Shape
 from ..shape.sharp_angle import sharp_angle_of
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..settings import Settings
-    from ..shape.shape import Shape
-    from .surface_samples import FaceSamples
+from .surface_samples import FaceSamples
 
 
-def patches_of(
-    shape: Shape, settings: Settings, samples: FaceSamples | None = None
-) -> NDArray[np.int32] | None:
+def patches_of(shape: Shape, settings: Settings, samples: FaceSamples | None = None) -> Ints | None:
     """Return the patches of samples of the faces, or of the vertices, as `AnalysedSamples.patches`."""
     if not len(shape.triangles):
         return None

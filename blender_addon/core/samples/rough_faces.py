@@ -4,21 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
 from ..shape.cube_faces import are_cubes
+from ..shape.shape import Shape
 from ..small_matrices import dot
 from .scan import SOME
 from .surface_normals import cross
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 SMOOTHING = 0.02  # of the whole work, as few faces are noisy
 # In spacings: with more noise faces fold over each other, and their normals say nothing.
@@ -102,14 +99,12 @@ def _left(noise: float, prepare: Prepare) -> str:
     )
 
 
-def _of_size_one(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _of_size_one(points: Floats) -> Floats:
     """The points in a unit, a power of two, in which no coordinate is above 1."""
     return np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
 
 
-def _vertex_normals(
-    points: NDArray[np.float64], triangles: NDArray[np.int32]
-) -> NDArray[np.float64]:
+def _vertex_normals(points: Floats, triangles: Ints) -> Floats:
     """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     area, corners = cross(b - a, c - a), triangles.ravel()

@@ -5,18 +5,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..settings import SamplingMode, Settings
 from ..shape.nearness import near
+from ..shape.shape import Shape
 from ..small_matrices import length_of
-
-if TYPE_CHECKING:
-    from ..shape.shape import Shape
-    from .analysed import AnalysedSamples
-
+from .analysed import AnalysedSamples
 
 _MANY = 2**53  # samples; more than any memory holds
 

@@ -4,28 +4,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..settings import SamplingMode
+from ..machine.progress import Progress
+from ..settings import SamplingMode, Settings
 from ..shape.nearness import sample_of_row
+from ..shape.shape import Shape
 from ..shape.triangle_faces import TriangleFaces
 from ..small_matrices import dot
+from .analysed import AnalysedSamples
 from .choose_samples import begin
+from .chosen import ChosenSamples
 from .density import Density, estimate
 from .rough_faces import SMOOTHING, smooth_faces
 from .sampling_warnings import sampling_warnings
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..settings import Settings
-    from ..shape.shape import Shape
-    from .analysed import AnalysedSamples
-    from .chosen import ChosenSamples
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,12 +46,12 @@ class SamplingReport(TriangleFaces):
     seconds : float
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    epsilon: NDArray[np.float64]
-    spacing: NDArray[np.float64]
-    feature_size: NDArray[np.float64]
-    moved: NDArray[np.float64]
+    vertices: Floats
+    triangles: Ints
+    epsilon: Floats
+    spacing: Floats
+    feature_size: Floats
+    moved: Floats
     density: Density
     shape: Shape
     chosen: ChosenSamples
@@ -104,7 +99,7 @@ def report_sampling(
     )
 
 
-def _moved(given: Shape, shape: Shape, chosen: ChosenSamples) -> NDArray[np.float64]:
+def _moved(given: Shape, shape: Shape, chosen: ChosenSamples) -> Floats:
     """Return how far each sample was moved; it is unknown for a scan that was thinned afterwards."""
     count = len(chosen.samples.points)
     if chosen.scan is not None:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,14 +12,12 @@ from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.outward_faces import are_left_out, reading_warnings
 from ..shape.own_frame import rounding_warning
+from ..shape.shape import Shape
 from ..small_matrices import placed
+from .chosen import ChosenSamples
 from .density import percent
 from .scan import is_noisy, scan_warnings
 from .worst_doubt import words_of_place
-
-if TYPE_CHECKING:
-    from ..shape.shape import Shape
-    from .chosen import ChosenSamples
 
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 

@@ -5,20 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats
 from ..machine import native
+from ..machine.progress import Progress
 from ..settings import Prepare, Settings, SidesFrom
 from ..severe import Severe
+from ..shape.shape import Shape
 from .density import percent
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..shape.shape import Shape
 
 SOME = 0.1  # noise in spacings from which on the axis has flakes
 _TOO_MUCH = 2.5  # noise in spacings beyond which too few points show the surface
@@ -65,7 +62,7 @@ class Scan:
     duplicates: int
     outliers: int
     border: float
-    moved: NDArray[np.float64] | None = None
+    moved: Floats | None = None
 
     @property
     def has_walls(self) -> bool:

@@ -4,24 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import Side, SidesFrom
 from ..severe import Severe
 from ..shape.nearness import same_place
+from ..shape.shape import Shape
 from ..shape.triangles import some_of
 from ..small_matrices import dot
 from .analysed import Sides
 from .buried_samples import outer_share, sides_of_faces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 # A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1
@@ -35,9 +32,7 @@ _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 _BOUNDING = 0.75
 
 
-def resolve_sides(
-    wanted: SidesFrom, triangles: NDArray[np.int32], gaps: int, normals: NDArray[np.float64] | None
-) -> Sides:
+def resolve_sides(wanted: SidesFrom, triangles: Ints, gaps: int, normals: Floats | None) -> Sides:
     """Decide on a source if AUTOMATIC is wanted; check that any other wanted source is there.
 
     Parameters
@@ -100,9 +95,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
 
 
-def are_sheets(
-    shape: Shape, part: NDArray[np.int32], is_open: NDArray[np.bool_], spacing: float
-) -> NDArray[np.bool_]:
+def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flags:
     """Mark the connected parts that are sheets among all others, (count,).
 
     Parameters
@@ -154,7 +147,7 @@ def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
     )
 
 
-def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
+def _turned(points: Floats, triangles: Ints) -> float:
     """Return the share of edges through which another triangle runs in the same direction."""
     ends = same_place(points)[triangles]
     edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
@@ -182,7 +175,7 @@ def decided(sides: Sides, analysis: Any) -> Sides:
     return Sides(source, reason)
 
 
-def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
+def look_inward(points: Floats, normals: Floats) -> bool:
     """Return whether the normals of the outermost samples along the coordinate axes point inward on the whole."""
     lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
     lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
@@ -190,7 +183,7 @@ def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bo
     return bool(high.sum() < low.sum())
 
 
-def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
+def cocone_warnings(found: Any, points: Floats) -> Iterator[str]:
     """Warn about suspicious properties of a surface that Tight Cocone found.
 
     Parameters
@@ -234,7 +227,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
         )
 
 
-def pole_warnings(analysis: Any, points: NDArray[np.float64]) -> Iterator[str]:
+def pole_warnings(analysis: Any, points: Floats) -> Iterator[str]:
     """Warn about suspicious properties of the solid that the poles determine.
 
     It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
@@ -268,7 +261,7 @@ def pole_warnings(analysis: Any, points: NDArray[np.float64]) -> Iterator[str]:
         )
 
 
-def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
+def _wide_triangles(points: Floats, triangles: Ints) -> int:
     edges = np.empty(len(triangles))
     for start in range(0, len(triangles), _CHUNK):
         corners = points[triangles[start : start + _CHUNK]]
@@ -277,6 +270,6 @@ def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -
     return _far_above(edges)
 
 
-def _far_above(lengths: NDArray[np.float64]) -> int:
+def _far_above(lengths: Floats) -> int:
     """Count the lengths that are many times the median one."""
     return int(np.count_nonzero(lengths > _WIDE * np.median(lengths))) if len(lengths) else 0

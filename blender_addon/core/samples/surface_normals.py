@@ -4,21 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..portable_cosine import cosine
 from ..settings import SamplingMode, SidesFrom
 from ..shape.outward_faces import are_left_out
+from ..shape.shape import Shape
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
-    from .chosen import ChosenSamples
+from .chosen import ChosenSamples
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +31,12 @@ class SurfaceNormals:
         A sentence about the source of the normals.
     """
 
-    normals: NDArray[np.float64]
-    at_edge: NDArray[np.bool_]
+    normals: Floats
+    at_edge: Flags
     source: str
 
 
-def measured_surface(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int32]:
+def measured_surface(shape: Shape, chosen: ChosenSamples) -> Ints:
     """(f, 3) the triangles to measure: the faces themselves where the samples are their corners, else the boundary of
     the inner cells, whose corners are samples."""
     if _are_corners(shape, chosen):
@@ -49,7 +45,7 @@ def measured_surface(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int32]:
 
 
 def surface_normals(
-    shape: Shape, chosen: ChosenSamples, surface: NDArray[np.int32], sharp_angle: float
+    shape: Shape, chosen: ChosenSamples, surface: Ints, sharp_angle: float
 ) -> SurfaceNormals:
     """Determine the normals of the samples from the best available source.
 
@@ -87,7 +83,7 @@ def _are_corners(shape: Shape, chosen: ChosenSamples) -> bool:
 
 
 def _of_triangles(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], sharp_angle: float, source: str
+    points: Floats, triangles: Ints, sharp_angle: float, source: str
 ) -> SurfaceNormals:
     """Take the mean normals of the triangles at each point."""
     normals, faces = mean_normals(points, triangles)
@@ -98,9 +94,7 @@ def _of_triangles(
     return SurfaceNormals(normals, at_edge, _sentence(source))
 
 
-def mean_normals(
-    points: NDArray[np.float64], triangles: NDArray[np.int32]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def mean_normals(points: Floats, triangles: Ints) -> tuple[Floats, Floats]:
     """Return the mean normal of the triangles at each point, (n, 3), of length 1 and by area, and (f, 3) their own."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     faces = cross(b - a, c - a)
@@ -111,13 +105,13 @@ def mean_normals(
     return unit(normals), unit(faces)
 
 
-def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def cross(a: Floats, b: Floats) -> Floats:
     """Return cross products of rows, (n, 3); NumPy's own function takes several times as long."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.column_stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
 
-def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def unit(vectors: Floats) -> Floats:
     """Return vectors of length 1, (n, 3); zero vectors stay zero."""
     lengths = np.linalg.norm(vectors, axis=1)[:, None]
     return vectors / np.where(lengths > 0.0, lengths, 1.0)

@@ -4,22 +4,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..errors import DegenerateInputError
 from ..machine import native
 from ..shape.outward_faces import check_some_left
+from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from .buried_samples import find_bare, on_flat_faces
 from .sample_spacing import mean_spacing
 from .walls import Places
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 # The radius of a sample's disc, in spacings.
 _DISC = 0.727
@@ -58,17 +55,17 @@ class FaceSamples:
         The row of the sample on the opposite wall, or -1.
     """
 
-    points: NDArray[np.float64]
-    edges: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    kinds: NDArray[np.int32]
-    faces: NDArray[np.int32]
-    radius: NDArray[np.float64]
+    points: Floats
+    edges: Floats
+    normals: Floats
+    kinds: Ints
+    faces: Ints
+    radius: Floats
     spacing: float
     buried: int
     closing: int
     places: Places
-    partners: NDArray[np.int32]
+    partners: Ints
 
 
 def sample_faces(
@@ -134,7 +131,7 @@ def sample_faces(
     )
 
 
-def _sampled(shape: Shape, rows: NDArray[np.int64], options: dict[str, Any], progress: Any) -> Any:
+def _sampled(shape: Shape, rows: Longs, options: dict[str, Any], progress: Any) -> Any:
     with native.own_errors() as module:
         return module.sample_surface(
             shape.points,
@@ -146,7 +143,7 @@ def _sampled(shape: Shape, rows: NDArray[np.int64], options: dict[str, Any], pro
 
 
 def _of_small_shells(
-    shape: Shape, rows: NDArray[np.int64], found: Any, options: dict[str, Any]
+    shape: Shape, rows: Longs, found: Any, options: dict[str, Any]
 ) -> dict[str, Any] | None:
     """Return the options with which no shell has less than `_OF_SHELL` samples; None where none has, or too many have.
 
@@ -175,28 +172,28 @@ def _of_small_shells(
     return {**{name: options[name] for name in options if name not in left}, "sizing": sizing}
 
 
-def are_paired(partners: NDArray[np.int32]) -> NDArray[np.bool_]:
+def are_paired(partners: Ints) -> Flags:
     """Mark the samples that have a partner, (n,): of two partners one may name the other alone."""
     paired = partners >= 0
     paired[partners[paired]] = True
     return paired
 
 
-def _of_rows(partners: NDArray[np.int32], kept: NDArray[np.bool_]) -> NDArray[np.int32]:
+def _of_rows(partners: Ints, kept: Flags) -> Ints:
     """Return the partners of the kept samples, (k,), counted among these; -1 where a partner was not kept."""
     number = np.where(kept, np.cumsum(kept) - 1, -1).astype(np.int32)
     partners = partners[kept]
     return np.where(partners >= 0, number[partners], np.int32(-1))
 
 
-def apart_of(samples: FaceSamples) -> NDArray[np.float64]:
+def apart_of(samples: FaceSamples) -> Floats:
     """Return the wanted distance of neighbours at each sample, (n,); where samples close openings, the mean one."""
     apart = np.full(len(samples.points), samples.spacing)
     apart[: len(samples.radius)] = samples.radius / _DISC
     return apart
 
 
-def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
+def _are_inside_faces(kinds: Ints) -> Flags:
     """Mark the samples in the interior of faces, (n,), or all samples if those are a minority.
 
     On an edge, the opposite wall depends on which of its faces one looks from.
@@ -206,7 +203,7 @@ def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
     return inside if 2 * np.count_nonzero(inside) > len(kinds) else np.ones(len(kinds), bool)
 
 
-def _are_on_edges(kinds: NDArray[np.int32], gaps: int, closed: bool) -> NDArray[np.bool_]:
+def _are_on_edges(kinds: Ints, gaps: int, closed: bool) -> Flags:
     """Mark the samples of edges and corners of the solid, (n,), where the feature size is 0.
 
     Where an opening is closed its rim is an edge of the solid. Corners of a mesh that stays open do not count: they
@@ -219,7 +216,7 @@ def _are_on_edges(kinds: NDArray[np.int32], gaps: int, closed: bool) -> NDArray[
     return edge if gaps and not closed else edge | (kinds == int(kind_of.CORNER))
 
 
-def _check_some(bare: NDArray[np.bool_]) -> None:
+def _check_some(bare: Flags) -> None:
     if not bare.any():
         raise DegenerateInputError(
             f"Expected a surface that bounds a solid, found that all {len(bare):,} samples of it "

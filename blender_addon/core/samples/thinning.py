@@ -5,19 +5,15 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes
-from ..settings import OPTIONS, AboveLimit, SamplingMode
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..settings import Settings
-    from ..shape.shape import Shape
+from ..settings import OPTIONS, AboveLimit, SamplingMode, Settings
+from ..shape.shape import Shape
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95
@@ -25,9 +21,7 @@ _PER_OCTAVE = 8  # the number of grids that are tried for each doubling of the r
 _OCTAVES = 20  # the number of doublings of the resolution
 
 
-def thinned_rows(
-    points: NDArray[np.float64], limit: MemoryLimit, error: MemoryLimitError
-) -> tuple[NDArray[np.int32], str]:
+def thinned_rows(points: Floats, limit: MemoryLimit, error: MemoryLimitError) -> tuple[Ints, str]:
     """Select (k,) ascending rows of a cloud that can be analysed within a limit, and report it in a sentence.
 
     Parameters
@@ -82,7 +76,7 @@ def fewer_samples(
     return replace(settings, budget=budget, keep_vertices=keep_vertices), sentence
 
 
-def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
+def spread_rows(points: Floats, most: int) -> Ints:
     """Return ascending rows, (k,): the first point in each cell of the finest grid that leaves at most `most` points.
 
     Every point is nearer to one of them than the diagonal of a cell.

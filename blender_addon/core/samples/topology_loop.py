@@ -9,27 +9,23 @@ in a way that samples of this surface cannot explain (`_medial.MedialAnalysis.do
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats
 from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
 from ..shape.nearness import nearest
 from ..shape.sharp_angle import sharp_angle_of
+from ..shape.solid_faces import SolidFaces
+from .analysed import AnalysedSamples, Request, Sides
 from .effort import EFFORT
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from ..shape.solid_faces import SolidFaces
-    from .analysed import AnalysedSamples, Request, Sides
 
 _LEVELS = 0.9  # the share of all work that ends with the first hierarchy
 _PASSES = 10  # the most passes with pairs
@@ -72,8 +68,8 @@ class Trial:
 
     samples: AnalysedSamples
     betti: tuple[int, int, int]
-    places: NDArray[np.float64]
-    gaps: NDArray[np.float64]
+    places: Floats
+    gaps: Floats
 
     @property
     def differences(self) -> int:
@@ -238,7 +234,7 @@ def _trial(request: Request, samples: AnalysedSamples) -> Trial:
     return Trial(samples, _betti(request, samples), places, gaps)
 
 
-def _no_doubts() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _no_doubts() -> tuple[Floats, Floats]:
     return np.zeros((0, 3)), np.zeros(0)
 
 
@@ -259,13 +255,11 @@ def _betti(
     return pieces, loops, cavities
 
 
-def _doubts(
-    request: Request, samples: AnalysedSamples
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _doubts(request: Request, samples: AnalysedSamples) -> tuple[Floats, Floats]:
     shape = request.shape
     assert samples.apart is not None
     with native.own_errors():
-        found: tuple[NDArray[np.float64], NDArray[np.float64]] = samples.analysis.doubts(
+        found: tuple[Floats, Floats] = samples.analysis.doubts(
             shape.points,
             shape.triangles[shape.unfolded],
             samples.normals,
@@ -299,7 +293,7 @@ def _are_missed_as_a_whole(samples: AnalysedSamples) -> bool:
     return samples.walls is not None and samples.walls.missed > _AS_A_WHOLE
 
 
-def _wanted(trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _wanted(trial: Trial) -> tuple[Floats, Floats]:
     """(k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
     samples = trial.samples
     assert samples.apart is not None

@@ -10,17 +10,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..shape.shape import Shape
 from ..shape.triangles import some_of, unit_normals
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 # Walls closer than this number of spacings get finer samples, until the walls are this number of spacings apart.
 _WANTED = 2.0
@@ -63,14 +60,14 @@ class Places:
         The distance of the sample from the flat face.
     """
 
-    points: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    spacing: NDArray[np.float64]
-    area: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    bend: NDArray[np.float64] | None = None
-    paired: NDArray[np.bool_] | None = None
-    bulge: NDArray[np.float64] | None = None
+    points: Floats
+    normals: Floats
+    spacing: Floats
+    area: Floats
+    faces: Ints
+    bend: Floats | None = None
+    paired: Flags | None = None
+    bulge: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -85,7 +82,7 @@ class Walls(Places):
         Infinite where there is no wall within two spacings.
     """
 
-    distance: NDArray[np.float64]
+    distance: Floats
 
     @cached_property
     def missed(self) -> float:
@@ -97,7 +94,7 @@ class Walls(Places):
         return self.missed > _SOME
 
     @property
-    def bulges(self) -> NDArray[np.bool_]:
+    def bulges(self) -> Flags:
         """(n,) where the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
         if self.bulge is None:
             return np.zeros(len(self.area), bool)
@@ -117,7 +114,7 @@ class Walls(Places):
         """The median distance of the walls that are missed."""
         return float(np.median(self.distance[self._are_missed]))
 
-    def wanted(self, finest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def wanted(self, finest: float) -> tuple[Floats, Floats]:
         """Return (k, 3) places between close walls, and (k,) the spacings that would show the axis there.
 
         Walls that would need spacings far below `finest` are left out.
@@ -149,7 +146,7 @@ class Walls(Places):
         return spacing < float(np.median(needed[self._are_missed]))
 
     @cached_property
-    def _are_missed(self) -> NDArray[np.bool_]:
+    def _are_missed(self) -> Flags:
         missed = self.distance < _MISSED * self.spacing
         if self.bend is None or self.paired is None:
             return missed

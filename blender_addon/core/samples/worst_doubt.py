@@ -3,21 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..shape.nearness import nearest
+from ..shape.shape import Shape
 from ..small_matrices import placed
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
-    from .analysed import AnalysedSamples
+from .analysed import AnalysedSamples
 
 _LOOKED_AT = 500  # doubts are compared with each other, so of many an even selection is
 _AROUND = 4.0  # doubts within this number of spacings belong together
@@ -41,9 +36,7 @@ def words_of_place(place: Iterable[float]) -> str:
     return f"({', '.join(f'{x:.4g}' for x in place)})"
 
 
-def worst_doubt(
-    shape: Shape, samples: AnalysedSamples, places: NDArray[np.float64]
-) -> WorstDoubt | None:
+def worst_doubt(shape: Shape, samples: AnalysedSamples, places: Floats) -> WorstDoubt | None:
     """Return the doubt with the most others within some spacings, the first of equal ones; None if there is none.
 
     Parameters

@@ -7,16 +7,11 @@ flat sheet needs its own area, a half ball half of it, a box without a wall a fi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .shape import Shape
+from .shape import Shape
 
 # A part is a sheet where its lids need at least this share of its own area: an arch of up to a seventh of its width.
 _LIDS = 0.95
@@ -26,7 +21,7 @@ _ALONE = 0.25
 _OFF = 1e-6  # the distance from its faces at which the two sides of a part are asked, as a share of a face's size
 
 
-def bent_sheets(shape: Shape, part: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
+def bent_sheets(shape: Shape, part: Ints, count: int) -> Flags:
     """Mark the parts that are sheets and bound nothing together with others, (count,).
 
     Parameters
@@ -60,8 +55,6 @@ def bent_sheets(shape: Shape, part: NDArray[np.int32], count: int) -> NDArray[np
     return found & (np.abs(mean) < _ALONE * _sum_of(areas, part, count))
 
 
-def _sum_of(
-    values: NDArray[np.float64], part: NDArray[np.int32], count: int
-) -> NDArray[np.float64]:
+def _sum_of(values: Floats, part: Ints, count: int) -> Floats:
     known = part >= 0
     return np.asarray(np.bincount(part[known], values[known], count), np.float64)

@@ -3,16 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..settings import SamplingMode
 from ..small_matrices import dot, stretches
-
-if TYPE_CHECKING:
-    from .shape import Shape
+from .shape import Shape
 
 
 def check_faces(shape: Shape, wanted: SamplingMode) -> None:

@@ -3,15 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Ints
 from ..small_matrices import dot
 from .triangles import unit_normals
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # In radians: rounding to float32 turns a side far less, and noise most sides more.
 _TURNED = 0.01
@@ -21,7 +17,7 @@ _NEARLY_ALL = 0.98
 _TRIED = 8  # triangles for the first direction: any of them may be grass
 
 
-def are_cubes(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> bool:
+def are_cubes(points: Floats, triangles: Ints) -> bool:
     """Return whether nearly all of the area looks along three directions that are perpendicular to each other.
 
     Parameters
@@ -37,9 +33,7 @@ def are_cubes(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> bool
     return bool(most >= _NEARLY_ALL * area.sum())
 
 
-def _area_along(
-    normals: NDArray[np.float64], area: NDArray[np.float64], first: NDArray[np.float64]
-) -> float:
+def _area_along(normals: Floats, area: Floats, first: Floats) -> float:
     """The area that looks along a direction, or along that of the largest triangle across, or across both."""
     across = np.abs(dot(normals, first)) < _TURNED
     second = normals[np.where(across, area, 0.0).argmax()]

@@ -7,24 +7,22 @@ NumPy has no search tree, and Blender's Python does not always have SciPy.
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ..arrays import Flags, Floats, Ints, Longs
 
 # The smallest cell, in a unit in which no coordinate is larger than 1: numbers of smaller cells overflow 64 bits.
 _SMALLEST_CELL = 2.0**-60
 
 
-def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def same_place(points: Floats) -> Longs:
     """(n,) a number from 0 upwards for each of (n, 3) points; points with the same coordinates get the same number."""
     _, place = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
     return place.reshape(-1).astype(np.int64)
 
 
-def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
+def sample_of_row(points: Floats, samples: Ints) -> Longs:
     """Return the number of the sample that each row is, (n,).
 
     The module merges rows that differ by next to nothing, too, so a row may equal no sample: it is the nearest one.
@@ -46,9 +44,7 @@ def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> ND
     return found
 
 
-def near(
-    points: NDArray[np.float64], others: NDArray[np.float64], reach: float
-) -> NDArray[np.bool_]:
+def near(points: Floats, others: Floats, reach: float) -> Flags:
     """Test by a grid whether one of the others is at most `reach` away; quick where few of them are near each point.
 
     Parameters
@@ -91,7 +87,7 @@ def near(
     return found
 
 
-def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.int64]:
+def nearest(points: Floats, others: Floats) -> Longs:
     """Find the nearest of others to each point, by grids that grow coarser where they find nothing.
 
     Parameters
@@ -117,15 +113,13 @@ def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray
     return found
 
 
-def _in_unit(*lengths: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+def _in_unit(*lengths: Floats) -> tuple[Floats, ...]:
     """Scale lengths by a power of two, which is exact, so that none is larger than 1 and no square overflows."""
     largest = max(float(np.abs(some).max(initial=0.0)) for some in lengths)
     return tuple(np.ldexp(some, -int(np.frexp(largest)[1])) for some in lengths)
 
 
-def _nearest_in_cells(
-    points: NDArray[np.float64], others: NDArray[np.float64], reach: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def _nearest_in_cells(points: Floats, others: Floats, reach: float) -> tuple[Longs, Floats]:
     """Find the nearest of those in the cells round each point, and its distance; infinite where there is none."""
     lowest = np.minimum(points.min(axis=0), others.min(axis=0))
     highest = np.maximum(points.max(axis=0), others.max(axis=0))
@@ -147,14 +141,12 @@ def _nearest_in_cells(
     return row, away
 
 
-def _cells(
-    points: NDArray[np.float64], lowest: NDArray[np.float64], reach: float, size: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _cells(points: Floats, lowest: Floats, reach: float, size: Longs) -> Longs:
     place = np.floor((points - lowest) / reach).astype(np.int64) + 2
     return place @ _strides(size)
 
 
-def _strides(size: NDArray[np.int64]) -> NDArray[np.int64]:
+def _strides(size: Longs) -> Longs:
     """Return the steps between the numbers of neighbouring cells, (3,).
 
     Very many cells overflow silently: then cells that are far apart may have the same number.

@@ -5,18 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags
 from ..errors import DegenerateInputError
 from ..machine import native
 from .repeated_faces import repeats_of_bodies
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .shape import Shape
+from .shape import Shape
 
 # Values of `Shape.reading`; 0 as given.
 TURNED, REPEATED, WITHOUT_CORNERS, OF_SHEETS = 1, 2, 3, 4
@@ -81,7 +77,7 @@ def reading_counts(shape: Shape) -> dict[str, int]:
     }
 
 
-def are_left_out(shape: Shape) -> NDArray[np.bool_]:
+def are_left_out(shape: Shape) -> Flags:
     """Return the triangles that count for nothing, (m,)."""
     if shape.reading is None:
         return np.zeros(len(shape.triangles), bool)

@@ -4,22 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
 from ..machine import native
 from ..small_matrices import placed
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .shape import Shape
+from .shape import Shape
 
 _NOTICED = 0.05  # this share of a length is noticed
 
 
-def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
+def in_own_frame(shape: Shape) -> tuple[Shape, Floats]:
     """Return a shape whose frame leads back from the centre of its box, and where this centre was.
 
     The shape stays where it is if its coordinates were rounded to float32: what that costs depends on their distance
@@ -34,7 +30,7 @@ def in_own_frame(shape: Shape) -> tuple[Shape, NDArray[np.float64]]:
     return replace(shape, points=shape.points - origin, frame=frame, far=far), origin
 
 
-def own_origin(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def own_origin(points: Floats) -> Floats:
     """Return the centre of the box along each axis where it may be subtracted exactly, (3,), 0 along others.
 
     That is where all coordinates are within a factor of two (Sterbenz); elsewhere the box is no farther away than its

@@ -7,14 +7,11 @@ connected part stands an even number of times, nothing would be left of it: ther
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # Odd numbers of 64 bits without a pattern, as splitmix64 has them.
 _FACTORS = np.array(
@@ -22,9 +19,7 @@ _FACTORS = np.array(
 )
 
 
-def repeats_of_bodies(
-    points: NDArray[np.float64], triangles: NDArray[np.int32]
-) -> NDArray[np.bool_]:
+def repeats_of_bodies(points: Floats, triangles: Ints) -> Flags:
     """(m,) mark the faces that repeat an earlier one, in any direction, of parts in which every face is repeated."""
     keys = _keys(points, triangles)
     _, first, of_key, count = np.unique(
@@ -43,7 +38,7 @@ def repeats_of_bodies(
     return repeated & known & ~alone[part]
 
 
-def _keys(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
+def _keys(points: Floats, triangles: Ints) -> NDArray[np.uint64]:
     """Return a number for the corners of each face, (m,), in any order; equal coordinates are one corner."""
     bits = np.ascontiguousarray(points + 0.0).view(np.uint64)  # -0.0 is 0.0
     corner = np.zeros(len(points), np.uint64)

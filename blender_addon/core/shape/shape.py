@@ -5,18 +5,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine import native
 from ..portable_angle import angle_of
 from ..small_matrices import dot
 from .nearness import same_place
 from .triangles import unit_normals
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
 # looked at, in roundings.
@@ -56,14 +54,14 @@ class Shape:
         the numbers can tell.
     """
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    normals: NDArray[np.float64] | None = None
-    frame: NDArray[np.float64] = field(default_factory=lambda: np.identity(4))
-    sharp_edges: NDArray[np.int32] | None = None
+    points: Floats
+    triangles: Ints
+    normals: Floats | None = None
+    frame: Floats = field(default_factory=lambda: np.identity(4))
+    sharp_edges: Ints | None = None
     shaded_smooth: bool = False
     of_samples: bool = True
-    rows: NDArray[np.int32] | None = None
+    rows: Ints | None = None
     reading: NDArray[np.uint8] | None = None
     offset: float = 0.0
     far: float = 0.0
@@ -112,7 +110,7 @@ class Shape:
             return module.solid_betti(self.points, self.triangles)
 
     @cached_property
-    def connected(self) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+    def connected(self) -> tuple[Ints, Flags]:
         """(m,) the connected part of each face, -1 for faces without three corners, and whether each part is open."""
         with native.own_errors() as module:
             part, is_open, _ = module.mesh_parts(self.points, self.triangles)
@@ -128,13 +126,13 @@ class Shape:
         return len(is_open), int(np.count_nonzero((volumes < 0.0) & ~is_open))
 
     @cached_property
-    def crossing(self) -> NDArray[np.int32]:
+    def crossing(self) -> Ints:
         """(k, 2) pairs of faces that pass through each other; not all of them where very many faces are thin."""
         with native.own_errors() as module:
             return np.asarray(module.crossing_faces(self.points, self.triangles))
 
     @cached_property
-    def neighbours(self) -> NDArray[np.int64]:
+    def neighbours(self) -> Longs:
         """(m, 3) the triangle beyond the side after each corner, which passes it the other way; -1 where there is none.
 
         Vertices with the same coordinates are one.
@@ -146,7 +144,7 @@ class Shape:
         row = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
         return np.where(keys[row] == wanted, row // 3, -1).reshape(-1, 3).astype(np.int64)
 
-    def smooth_bends(self, sharp: float) -> NDArray[np.float64]:
+    def smooth_bends(self, sharp: float) -> Floats:
         """(m,) the largest angle between the normals of each face and one beside it over an edge that is not sharp."""
         normals, _ = unit_normals(self.points[self.triangles])
         cosines = np.clip(dot(normals[:, None], normals[self.neighbours]), -1.0, 1.0)
@@ -155,7 +153,7 @@ class Shape:
         return np.where(counted, angles, 0.0).max(axis=1, initial=0.0)
 
     @cached_property
-    def unfolded(self) -> NDArray[np.int64]:
+    def unfolded(self) -> Longs:
         """(k,) the faces without those that a fold hides: they lie between two others, with the solid outside of them.
 
         Folds have neighbours that lie on each other, nearly; without one no face is tested, nor where faces that cannot

@@ -4,11 +4,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from ..settings import Settings
-    from .shape import Shape
+from ..settings import Settings
+from .shape import Shape
 
 # Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
 _CLEARLY = 1.01

@@ -4,19 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..settings import SidesFrom
+from ..arrays import Ints
+from ..settings import Settings, SidesFrom
 from .outward_faces import are_left_out
+from .shape import Shape
 from .sharp_angle import sharp_angle_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..settings import Settings
-    from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +30,7 @@ class SolidFaces:
     """
 
     shape: Shape
-    face: NDArray[np.int32]
+    face: Ints
     flat: bool = False
 
     @property
@@ -60,10 +57,7 @@ class SolidFaces:
 
 
 def solid_faces(
-    shape: Shape,
-    source: SidesFrom,
-    face: NDArray[np.int32] | None = None,
-    flat: bool = False,
+    shape: Shape, source: SidesFrom, face: Ints | None = None, flat: bool = False
 ) -> SolidFaces | None:
     """Return the faces of a shape if they decide what is inside, and None otherwise.
 
@@ -86,7 +80,7 @@ def triangles_of_places(shape: Shape, settings: Settings) -> int:
     return len(shape.triangles) if settings.crisp and settings.crisp_is_possible else 0
 
 
-def _face_of_vertex(shape: Shape) -> NDArray[np.int32]:
+def _face_of_vertex(shape: Shape) -> Ints:
     """Return the first triangle at each vertex, (n,), or -1."""
     face = np.full(len(shape.points), -1, np.int32)
     kept = np.flatnonzero(~are_left_out(shape)).astype(np.int32)

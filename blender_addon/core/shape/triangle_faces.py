@@ -3,25 +3,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ..arrays import Ints
 
 
 class TriangleFaces:
     """Gives a class that has `triangles`, (f, 3) int32, the same arrays of faces as a `MedialAxis`."""
 
-    triangles: NDArray[np.int32]
+    triangles: Ints
 
     @property
-    def face_offsets(self) -> NDArray[np.int32]:
+    def face_offsets(self) -> Ints:
         """(f + 1,) int32, as `MedialAxis.face_offsets`."""
         return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
 
     @property
-    def face_vertices(self) -> NDArray[np.int32]:
+    def face_vertices(self) -> Ints:
         """(3 f,) int32, as `MedialAxis.face_vertices`."""
         return self.triangles.ravel()

@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from ..arrays import Floats
 
 # At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
@@ -19,7 +17,7 @@ def some_of(count: int) -> NDArray[np.intp]:
     return np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
 
 
-def unit_normals(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def unit_normals(corners: Floats) -> tuple[Floats, Floats]:
     """(n, 3) the unit normal of each triangle of (n, 3, 3) corners, zero where it has none, and (n,) twice its area."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)

@@ -4,19 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InvalidInputError
 from ..machine import native
-from ..settings import SidesFrom
+from ..machine.progress import Progress
+from ..settings import Settings, SidesFrom
 from ..small_matrices import length_of
 from .shape import Shape
-
-if TYPE_CHECKING:
-    from ..machine.progress import Progress
-    from ..settings import Settings
 
 _DISTANCE = 0.05  # of the surface from the faces, as a share of the openings that it closes
 

@@ -3,25 +3,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..curves.bridges import on_loops
-from ..curves.smooth_line import at_marks, even_places, marks_of, mean_along, smooth_line
+from ..curves.smooth_line import (
+    SmoothLine,
+    at_marks,
+    even_places,
+    marks_of,
+    mean_along,
+    smooth_line,
+)
 from ..settings import SidesFrom
 from ..small_matrices import length_of
+from .compute import Skeletonization
 from .sections import Faces, section
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from ..curves.smooth_line import SmoothLine
-    from .compute import Skeletonization
-    from .skeleton import Skeleton
+from .skeleton import Skeleton
 
 _APART = 4  # one of this many places of the smooth line has a cross-section: every half radius
 _MOST_SECTIONS = 64  # of a branch
@@ -42,10 +45,10 @@ class Profile:
         MEASURES; nan where they are unknown.
     """
 
-    share: NDArray[np.float64]
-    values: NDArray[np.float64]
+    share: Floats
+    values: Floats
 
-    def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(self, share: Floats) -> Floats:
         """Return the measures at other shares, (k, 4); they are nan before the first place and after the last."""
         if not len(self.share):
             return np.full((len(share), len(MEASURES)), np.nan)
@@ -89,27 +92,27 @@ class Branches:
         The measures along each branch.
     """
 
-    start: NDArray[np.int32]
-    end: NDArray[np.int32]
-    start_degree: NDArray[np.int32]
-    end_degree: NDArray[np.int32]
-    on_loop: NDArray[np.bool_]
-    length: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    tortuosity: NDArray[np.float64]
-    radius_mean: NDArray[np.float64]
-    radius_least: NDArray[np.float64]
-    radius_largest: NDArray[np.float64]
-    curvature_mean: NDArray[np.float64]
-    curvature_largest: NDArray[np.float64]
-    torsion_mean: NDArray[np.float64]
-    sections: NDArray[np.int32]
-    area_mean: NDArray[np.float64]
-    area_least: NDArray[np.float64]
-    area_largest: NDArray[np.float64]
-    perimeter_mean: NDArray[np.float64]
-    perimeter_least: NDArray[np.float64]
-    perimeter_largest: NDArray[np.float64]
+    start: Ints
+    end: Ints
+    start_degree: Ints
+    end_degree: Ints
+    on_loop: Flags
+    length: Floats
+    distance: Floats
+    tortuosity: Floats
+    radius_mean: Floats
+    radius_least: Floats
+    radius_largest: Floats
+    curvature_mean: Floats
+    curvature_largest: Floats
+    torsion_mean: Floats
+    sections: Ints
+    area_mean: Floats
+    area_least: Floats
+    area_largest: Floats
+    perimeter_mean: Floats
+    perimeter_least: Floats
+    perimeter_largest: Floats
     profiles: list[Profile]
 
     @property
@@ -154,10 +157,7 @@ def branches_of(
 
 
 def _table(
-    rows: list[dict[str, Any]],
-    profiles: list[Profile],
-    degree: NDArray[np.int64],
-    skeleton: Skeleton,
+    rows: list[dict[str, Any]], profiles: list[Profile], degree: Longs, skeleton: Skeleton
 ) -> Branches:
     loops = set(_on_loops(skeleton))
     types = {"sections": np.int32, "start": np.int32, "end": np.int32}
@@ -186,9 +186,7 @@ def _on_loops(skeleton: Skeleton) -> list[int]:
     return on_loops(ends, at)
 
 
-def _line_of(
-    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
-) -> SmoothLine | None:
+def _line_of(points: Floats, radius: Floats, closed: bool) -> SmoothLine | None:
     """Return the smooth line of a branch outside of the balls at its ends; None if it is shorter than a mean radius.
 
     The rules for ends and forks have moved the points inside of these balls. The shares are those of the whole branch.
@@ -215,10 +213,7 @@ def _line_of(
 
 
 def _line_figures(
-    points: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    line: SmoothLine | None,
-    closed: bool,
+    points: Floats, radius: Floats, line: SmoothLine | None, closed: bool
 ) -> dict[str, float]:
     """Return the measures that the points of a branch and its smooth line give."""
     marks = marks_of(points)
@@ -257,7 +252,7 @@ def _measure_bends(
     return {**_bend_figures(bends[once]), **_section_figures(cuts[once])}, profile
 
 
-def _bend_figures(bends: NDArray[np.float64]) -> dict[str, float]:
+def _bend_figures(bends: Floats) -> dict[str, float]:
     """Return the figures of rows of curvature, torsion and weight."""
     known = bends[~np.isnan(bends[:, 1])]
     weight = known[:, 2].sum()
@@ -268,7 +263,7 @@ def _bend_figures(bends: NDArray[np.float64]) -> dict[str, float]:
     }
 
 
-def _section_figures(cuts: NDArray[np.float64]) -> dict[str, float]:
+def _section_figures(cuts: Floats) -> dict[str, float]:
     """Return the figures of rows of area and perimeter."""
     known = cuts[~np.isnan(cuts[:, 0])]
     found: dict[str, float] = {"sections": len(known)}
@@ -280,7 +275,7 @@ def _section_figures(cuts: NDArray[np.float64]) -> dict[str, float]:
 
 
 def _sections(
-    line: SmoothLine, rows: NDArray[np.int64], curve: Skeleton, name: int, faces: Faces
+    line: SmoothLine, rows: Longs, curve: Skeleton, name: int, faces: Faces
 ) -> Iterator[tuple[float, float]]:
     """Yield the area and the perimeter of the cross-section at each of some places of a branch."""
     room = _ROOM * float(line.radius.max())
@@ -294,6 +289,6 @@ def _sections(
         yield found
 
 
-def _edge_names(skeleton: Skeleton) -> NDArray[np.int64]:
+def _edge_names(skeleton: Skeleton) -> Longs:
     """Return the branch of each edge, (e,)."""
     return np.repeat(np.arange(skeleton.count), np.diff(skeleton.branch_offsets) - 1)

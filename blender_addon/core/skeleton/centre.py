@@ -3,17 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .skeleton import Skeleton
+from ..arrays import Floats
+from .skeleton import Skeleton
 
 
-def centre_of_mass(skeleton: Skeleton) -> NDArray[np.float64]:
+def centre_of_mass(skeleton: Skeleton) -> Floats:
     """Return the centre of mass, (3,), of tubes along the edges and balls at single points.
 
     It needs no faces, so open or self-intersecting ones do not disturb it.

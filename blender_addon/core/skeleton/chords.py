@@ -8,18 +8,14 @@ stays inside if such balls around places along it cover it. An edge that they do
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Longs
+from ..curves.depth import Depth
+from ..curves.net import Net
 from ..portable_cosine import cosine
 from ..small_matrices import length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.depth import Depth
-    from ..curves.net import Net
 
 _HALVED = 8  # an edge that balls at so fine places do not cover touches the surface
 # Balls on two sides of the surface may touch, and by rounding seem to overlap; balls overlap by more than this share.
@@ -28,9 +24,7 @@ _ROUNDS = 4  # so often an edge between neighbours is split
 _TRIED = 14, 12  # steps and directions in which a place between two balls is looked for
 
 
-def leave(
-    ends: NDArray[np.float64], radius: NDArray[np.float64], depth: Depth
-) -> NDArray[np.bool_]:
+def leave(ends: Floats, radius: Floats, depth: Depth) -> Flags:
     """Return which segments, (n, 2, 3), the balls do not cover; `radius`, (n, 2), is that of the balls at the ends."""
     bare = np.zeros(len(ends), bool)
     row = np.arange(len(ends))
@@ -51,12 +45,7 @@ def leave(
     return bare
 
 
-def kept_inside(
-    points: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    kept: NDArray[np.int64],
-    depth: Depth,
-) -> NDArray[np.int64]:
+def kept_inside(points: Floats, radius: Floats, kept: Longs, depth: Depth) -> Longs:
     """Return the kept points of a chain and, where the way between two of them leaves the solid, those between."""
     while True:
         pairs = np.column_stack((kept[:-1], kept[1:]))
@@ -132,9 +121,7 @@ def _leaving(
     return [edges[i] for i in np.flatnonzero(bad)]
 
 
-def _between(
-    ends: NDArray[np.float64], radius: NDArray[np.float64], depth: Depth
-) -> NDArray[np.float64] | None:
+def _between(ends: Floats, radius: Floats, depth: Depth) -> Floats | None:
     """Return the place whose ball overlaps those at two ends most, or None if no ball overlaps both.
 
     Only the ball of a place inside overlaps balls inside.
@@ -154,7 +141,7 @@ def _between(
     return best if value > 0.0 else None
 
 
-def _even_directions(count: int) -> NDArray[np.float64]:
+def _even_directions(count: int) -> Floats:
     """Return unit vectors that are spread evenly, (count, 3): a spiral with steps of the golden angle."""
     height = 1.0 - (2.0 * np.arange(count) + 1.0) / count
     turn = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)

@@ -4,22 +4,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Longs
+from ..curves.net import Net
 from ..errors import InvalidInputError
 from ..small_matrices import length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.net import Net
 
 _NEAR = 2.0  # an end less than this many radii from the tip of its limb means the tip
 
 
-def join_ends(net: Net, rows: NDArray[np.int64]) -> list[int]:
+def join_ends(net: Net, rows: Longs) -> list[int]:
     """Remove all branches that do not join ends.
 
     Parameters

@@ -5,25 +5,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..axis.detail import net_with_detail
 from ..axis.levels import hierarchy_of
 from ..axis.solid_warnings import solid_warnings
 from ..curves.depth import Depth
 from ..curves.ends import end_limbs
-from ..curves.loaded_net import genuine_loops, loaded_net
+from ..curves.loaded_net import LoadedNet, genuine_loops, loaded_net
 from ..curves.net import Net
 from ..curves.rules import Loops, clear_loops, join_forks, open_loops, prune
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
+from ..samples.analysed import AnalysedSamples
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
+from ..shape.shape import Shape
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
@@ -37,14 +41,6 @@ from .parts import Parts, parts_of, places
 from .simplify import kept_points
 from .skeleton import Skeleton, skeleton_of
 from .warnings import fill_warnings, skeleton_warnings
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.loaded_net import LoadedNet
-    from ..machine.progress import Progress
-    from ..samples.analysed import AnalysedSamples
-    from ..shape.shape import Shape
 
 # This share of the work is done before the hierarchy begins.
 _ANALYSIS = 0.6
@@ -94,7 +90,7 @@ def compute_skeleton(
     wanted: SkeletonSettings,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
-    ends: NDArray[np.float64] | None = None,
+    ends: Floats | None = None,
     shown: Settings | None = None,
 ) -> Skeletonization:
     """Return the skeleton of a solid.
@@ -170,7 +166,7 @@ def compute_skeleton(
     )
 
 
-def _check_ends(ends: NDArray[np.float64] | None) -> None:
+def _check_ends(ends: Floats | None) -> None:
     if ends is not None and not (
         ends.ndim == 2 and ends.shape[1] == 3 and len(ends) > 1 and np.isfinite(ends).all()
     ):
@@ -185,8 +181,8 @@ def _net(
     settings: Settings,
     wanted: SkeletonSettings,
     progress: Progress,
-    ends: NDArray[np.float64] | None,
-) -> tuple[Net, NDArray[np.int64], Any, Loops]:
+    ends: Floats | None,
+) -> tuple[Net, Longs, Any, Loops]:
     """Return the net of limbs, the owner of each sample, the level that they are of, and cleared loops."""
     samples = chosen.samples
     # Curves are fitted to samples, so no place is crisp.
@@ -207,7 +203,7 @@ def _net(
 
 def _net_of_curve(
     chosen: ChosenSamples, shown: Settings, wanted: SkeletonSettings, progress: Progress
-) -> tuple[Net, NDArray[np.int64], Any, Loops]:
+) -> tuple[Net, Longs, Any, Loops]:
     """Return what `_net` does, with the loops and branches of a curve with some detail."""
     samples = chosen.samples
     level, hierarchy = _curve(samples, shown, shown.limb / 100, progress)
@@ -218,7 +214,7 @@ def _net_of_curve(
 
 def _drawn(
     loaded: LoadedNet, wanted: SkeletonSettings, samples: AnalysedSamples, tips: list[int] | None
-) -> NDArray[np.int64]:
+) -> Longs:
     """Give the remaining branches of a net their ends and forks; returns the new owner of each sample."""
     net = loaded.net
     join_forks(net)
@@ -272,9 +268,7 @@ def _shrink(net: Net, shape: Shape, full: Filled) -> None:
         np.minimum(net.radius, room, out=net.radius)
 
 
-def _samples_of_vertices(
-    shape: Shape, chosen: ChosenSamples, own: bool = True
-) -> NDArray[np.int64]:
+def _samples_of_vertices(shape: Shape, chosen: ChosenSamples, own: bool = True) -> Longs:
     """Return the sample nearest to each vertex of the shape, (v,); `own` says whether samples may be its vertices."""
     samples = chosen.samples
     distinct = samples.analysis.samples

@@ -4,22 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..shape.nearness import same_place
 from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import length_of
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
 
 _INSIDE = 0.5  # of a winding number, from which on a place is inside
 _ASIDE = 1e-5  # a face is looked at from so far before it, as a share of the diagonal
@@ -41,7 +37,7 @@ class Filled:
     """
 
     shape: Shape
-    inner: NDArray[np.int32]
+    inner: Ints
     share: float
 
 
@@ -80,12 +76,7 @@ def filled(shape: Shape) -> Filled:
     return Filled(_lidded(read, faces[~hidden], place), faces[hidden], share)
 
 
-def _has_opposite_wall(
-    points: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    normals: NDArray[np.float64],
-    diagonal: float,
-) -> NDArray[np.bool_]:
+def _has_opposite_wall(points: Floats, faces: Ints, normals: Floats, diagonal: float) -> Flags:
     """Return whether a wall faces each face, straight before one of four places; one alone may look along an edge."""
     corners = points[faces]
     middles = corners.mean(axis=1)
@@ -101,7 +92,7 @@ def _has_opposite_wall(
     return np.isfinite(gap).reshape(4, -1).any(axis=0)
 
 
-def _patches(faces: NDArray[np.int64], label: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _patches(faces: Longs, label: Flags) -> Longs:
     """Return the number of the patch of each face: faces of one label that share edges are of one patch."""
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     order = np.lexsort(edges.T)
@@ -110,9 +101,7 @@ def _patches(faces: NDArray[np.int64], label: NDArray[np.bool_]) -> NDArray[np.i
     return united(len(faces), pairs[label[pairs[:, 0]] == label[pairs[:, 1]]].astype(np.int32))
 
 
-def _is_inside(
-    looks: NDArray[np.float64], points: NDArray[np.float64], faces: NDArray[np.int32]
-) -> bool:
+def _is_inside(looks: Floats, points: Floats, faces: Ints) -> bool:
     """Return whether the median winding number of some places is that of places inside."""
     some = np.unique(np.linspace(0, len(looks) - 1, min(len(looks), _LOOKED_AT)).astype(np.intp))
     if not len(faces):
@@ -122,7 +111,7 @@ def _is_inside(
     return bool(np.median(found) > _INSIDE)
 
 
-def _lidded(shape: Shape, faces: NDArray[np.int32], place: NDArray[np.int64]) -> Shape:
+def _lidded(shape: Shape, faces: Ints, place: Longs) -> Shape:
     """Return a shape of some faces, and a lid of triangles round the middle of each of their openings."""
     used, corner = np.unique(place[faces], return_inverse=True)
     corner = corner.reshape(-1, 3)
@@ -144,7 +133,7 @@ def _lidded(shape: Shape, faces: NDArray[np.int32], place: NDArray[np.int64]) ->
     )
 
 
-def _openings(corners: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+def _openings(corners: Longs) -> list[Longs]:
     """Return the loops of edges that only one face has, in its direction; one that meets itself is divided there."""
     edges = corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     twins = {(b, a) for a, b in edges.tolist()}

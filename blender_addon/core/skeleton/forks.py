@@ -9,16 +9,12 @@ they meet. If that point is not well inside the ball, nothing changes.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats
+from ..curves.net import Net
 from ..small_matrices import dot, inverse, stretches, times
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.net import Net
 
 _FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball
 _MOVED = 1.0  # a fork moves by at most this many radii
@@ -34,7 +30,7 @@ class _Root:
     beyond: int
 
 
-def draw_forks(net: Net, samples: NDArray[np.float64]) -> None:
+def draw_forks(net: Net, samples: Floats) -> None:
     """Move the forks of a net and the points in their balls; each new radius is the distance to the nearest sample."""
     forks = [node for node, names in net.at.items() if len(names) > 2]
     if forks:
@@ -44,7 +40,7 @@ def draw_forks(net: Net, samples: NDArray[np.float64]) -> None:
         )  # the points outside the ball change as the fork moves, so a second pass is needed
 
 
-def _draw(net: Net, forks: list[int], samples: NDArray[np.float64]) -> None:
+def _draw(net: Net, forks: list[int], samples: Floats) -> None:
     wanted = np.array([_meeting_point(net, fork) for fork in forks])
     room = _room(wanted, samples)
     moved = np.linalg.norm(wanted - net.points[forks], axis=1)
@@ -62,7 +58,7 @@ def _draw(net: Net, forks: list[int], samples: NDArray[np.float64]) -> None:
         net.radius[changed] = _room(net.points[changed], samples)
 
 
-def _meeting_point(net: Net, fork: int) -> NDArray[np.float64]:
+def _meeting_point(net: Net, fork: int) -> Floats:
     """Return the point that is nearest in least squares to the lines along the limbs."""
     here = net.points[fork]
     matrix, right = _STAY * np.eye(3), np.zeros(3)
@@ -91,7 +87,7 @@ def _from(net: Net, name: int, fork: int) -> list[int]:
     return chain if chain[0] == fork else chain[::-1]
 
 
-def _line(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _line(points: Floats) -> tuple[Floats, Floats]:
     """Return the mean of points, and the direction in which they spread most."""
     middle = points.mean(axis=0)
     return middle, stretches(points - middle)[1][0]
@@ -111,14 +107,14 @@ def _roots(net: Net, fork: int) -> list[_Root]:
     return found
 
 
-def _straighten(net: Net, root: _Root, place: NDArray[np.float64]) -> None:
+def _straighten(net: Net, root: _Root, place: Floats) -> None:
     """Space the points in the ball evenly on the segment from its new centre to the next point."""
     count = len(root.inside)
     share = np.arange(1, count + 1)[:, None] / (count + 1)
     net.points[root.inside] = (1.0 - share) * place + share * net.points[root.beyond]
 
 
-def _room(points: NDArray[np.float64], samples: NDArray[np.float64]) -> NDArray[np.float64]:
+def _room(points: Floats, samples: Floats) -> Floats:
     """Return the distance to the nearest sample, (n,); there are few points, and they are far from all samples."""
     centred = samples - samples.mean(axis=0)
     squares = dot(centred, centred)

@@ -3,13 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from ..curves.depth import Depth
-    from ..curves.net import Net
+from ..curves.depth import Depth
+from ..curves.net import Net
 
 
 def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:

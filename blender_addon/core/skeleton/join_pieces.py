@@ -6,18 +6,13 @@ Where an open body is thinner than its samples are apart, its axis is torn, and 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Longs
+from ..curves.depth import Depth
+from ..curves.net import Net
 from ..machine.native import own_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.depth import Depth
-    from ..curves.net import Net
-    from ..shape.shape import Shape
+from ..shape.shape import Shape
 
 _LEAST_STEP = 1e-5  # of a way: gaps between two bodies that are narrower are not seen
 _STEPS = 256  # a way that needs more runs along a face
@@ -50,7 +45,7 @@ def join_pieces(net: Net, depth: Depth, shape: Shape) -> int:
     return count
 
 
-def _stay_inside(ends: NDArray[np.float64], depth: Depth, shape: Shape) -> NDArray[np.bool_]:
+def _stay_inside(ends: Floats, depth: Depth, shape: Shape) -> Flags:
     """Return which straight ways, (n, 2, 3), are in the solid all along.
 
     The winding number is the same in the whole ball that no face reaches. So a way is walked from ball to ball, and
@@ -97,16 +92,14 @@ def _piece_of_nodes(net: Net) -> dict[int, int]:
     return found
 
 
-def _rows(net: Net, piece: dict[int, int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _rows(net: Net, piece: dict[int, int]) -> tuple[Longs, Longs]:
     """Return the points of all branches and the single points, ascending, and the piece of each."""
     of_row = {row: piece[chain[0]] for chain in net.branches.values() for row in chain} | piece
     rows = np.array(sorted(of_row), np.int64)
     return rows, np.array([of_row[row] for row in rows.tolist()], np.int64)
 
 
-def _nearest_pairs(
-    points: NDArray[np.float64], radius: NDArray[np.float64], piece: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _nearest_pairs(points: Floats, radius: Floats, piece: Longs) -> Longs:
     """Return, for each two pieces, the two points whose balls have the smallest gap, (k, 2)."""
     order = np.argsort(piece, kind="stable")
     starts = np.flatnonzero(np.diff(piece[order], prepend=-1))
@@ -121,12 +114,7 @@ def _nearest_pairs(
     return np.array(pairs, np.int64).reshape(-1, 2)
 
 
-def _nearest(
-    points: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    rows: NDArray[np.int64],
-    others: NDArray[np.int64],
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _nearest(points: Floats, radius: Floats, rows: Longs, others: Longs) -> tuple[Floats, Longs]:
     """Return the least gap between the ball of each of the others and one of the rows, and that row."""
     least = np.full(len(others), np.inf)
     nearest = np.full(len(others), rows[0])
@@ -139,7 +127,7 @@ def _nearest(
     return least - radius[others], nearest
 
 
-def _join(net: Net, a: int, b: int, apart: float, radius: NDArray[np.float64]) -> None:
+def _join(net: Net, a: int, b: int, apart: float, radius: Floats) -> None:
     """Add a branch between two points, or let one take over a single point in its ball."""
     for single, other, room in ((a, b, radius[1]), (b, a, radius[0])):
         if net.at.get(single) == [] and apart < room:

@@ -8,19 +8,14 @@ moves the branches become smooth lines. Tips stay: they are centres of such ball
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
+from ..curves.depth import Depth
+from ..curves.net import Net
 from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
 from ..small_matrices import dot
 from .inscribe import inscribe
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.depth import Depth
-    from ..curves.net import Net
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
 _MOVED = 0.5  # a point moves by at most this many radii at once, and so stays in the ball around it
@@ -65,7 +60,7 @@ def _smooth(net: Net) -> None:
         net.radius[rows[free]] -= moved[free]  # a ball that certainly fits
 
 
-def _middles(places: NDArray[np.float64], depth: Depth) -> NDArray[np.float64]:
+def _middles(places: Floats, depth: Depth) -> Floats:
     """Return the centres of the largest balls that touch the surface where it is nearest to places."""
     room = depth(places)
     way = _away(places, room, depth)
@@ -77,9 +72,7 @@ def _middles(places: NDArray[np.float64], depth: Depth) -> NDArray[np.float64]:
     return places + low[:, None] * way
 
 
-def _away(
-    places: NDArray[np.float64], room: NDArray[np.float64], depth: Depth
-) -> NDArray[np.float64]:
+def _away(places: Floats, room: Floats, depth: Depth) -> Floats:
     """Return unit vectors away from the nearest places of the surface; 0 where there are some on two sides."""
     step = _AHEAD * room
     steps = step[:, None, None] * np.eye(3)
@@ -92,5 +85,5 @@ def _away(
     return share[:, None] * grown
 
 
-def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _lengths(vectors: Floats) -> Floats:
     return np.sqrt(dot(vectors, vectors))

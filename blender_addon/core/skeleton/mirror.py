@@ -7,17 +7,12 @@ The plane goes through the centre of mass. Nodes and branches must have mirror i
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
+from ..curves.net import Net
 from ..shape.nearness import near, nearest
 from ..small_matrices import length_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.net import Net
 
 SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
 
@@ -55,7 +50,7 @@ def make_symmetric(net: Net, plane: float) -> bool:
     return True
 
 
-def _image(points: NDArray[np.float64], plane: float) -> NDArray[np.float64]:
+def _image(points: Floats, plane: float) -> Floats:
     image = points.copy()
     image[..., 0] = 2.0 * plane - image[..., 0]
     return image
@@ -131,15 +126,13 @@ def _average_with_itself(net: Net, chain: list[int], along: bool, plane: float) 
     net.radius[chain[1:-1]] = ((radii + others_radii) / 2)[1:-1]
 
 
-def _shares(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _shares(points: Floats) -> Floats:
     """Return the share of the length of a chain before each of its points, (n,), from 0 to 1."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return np.concatenate(([0.0], np.cumsum(steps))) / max(steps.sum(), np.finfo(float).tiny)
 
 
-def _at(
-    net: Net, rows: list[int], share: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _at(net: Net, rows: list[int], share: Floats) -> tuple[Floats, Floats]:
     """Return the points at some shares of the length of a chain, and the radii there."""
     marks, points = _shares(net.points[rows]), net.points[rows]
     places = np.column_stack([np.interp(share, marks, points[:, axis]) for axis in range(3)])

@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..curves.net import Net
+from ..arrays import Floats, Ints, Longs
+from ..curves.net import Net
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,10 +23,10 @@ class Places:
         The share of the branch before it: 0 at its start, 1 at its end.
     """
 
-    branch: NDArray[np.int32]
-    along: NDArray[np.float64]
+    branch: Ints
+    along: Floats
 
-    def of(self, rows: NDArray[np.int64]) -> Places:
+    def of(self, rows: Longs) -> Places:
         """Return the places of some rows."""
         return Places(self.branch[rows], self.along[rows])
 
@@ -47,7 +44,7 @@ class Parts:
     """
 
     vertices: Places
-    faces: NDArray[np.int32]
+    faces: Ints
 
 
 def places(net: Net, names: list[int]) -> Places:
@@ -70,7 +67,7 @@ def places(net: Net, names: list[int]) -> Places:
     return Places(branch, np.minimum(along, 1.0))
 
 
-def parts_of(vertices: Places, triangles: NDArray[np.int32]) -> Parts:
+def parts_of(vertices: Places, triangles: Ints) -> Parts:
     """Return the parts of a surface whose vertices are at some places."""
     a, b, c = vertices.branch[triangles].T
     return Parts(vertices, np.where(b == c, b, a).astype(np.int32))

@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot, times
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _ENDS = np.array([(0, 1), (1, 2), (2, 0)])  # corners of the sides of a triangle
 
@@ -19,23 +16,19 @@ _ENDS = np.array([(0, 1), (1, 2), (2, 0)])  # corners of the sides of a triangle
 class Faces:
     """These are the faces of a solid, with vertices that coincide as one."""
 
-    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
+    def __init__(self, points: Floats, triangles: Ints) -> None:
         self.points, row = np.unique(points, axis=0, return_inverse=True)
         self.triangles = row.reshape(-1)[triangles]
         corners = self.points[self.triangles]
         self._low, self._high = corners.min(axis=1), corners.max(axis=1)
 
-    def near(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.int64]:
+    def near(self, low: Floats, high: Floats) -> Longs:
         """Return the triangles, (m, 3), whose boxes meet the box between two corners."""
         return self.triangles[((self._low <= high) & (self._high >= low)).all(axis=1)]
 
 
 def section(
-    place: NDArray[np.float64],
-    normal: NDArray[np.float64],
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int64],
-    others: NDArray[np.float64],
+    place: Floats, normal: Floats, points: Floats, triangles: Longs, others: Floats
 ) -> tuple[float, float]:
     """Return the area and the perimeter of the cross-section round a place, or twice nan where there is none.
 
@@ -69,7 +62,7 @@ def section(
     return min(areas), float(np.linalg.norm(steps, axis=1).sum())
 
 
-def _across(normal: NDArray[np.float64]) -> NDArray[np.float64]:
+def _across(normal: Floats) -> Floats:
     """Return two unit vectors across a third one, (2, 3)."""
     axis = np.zeros(3)
     axis[np.argmin(np.abs(normal))] = 1.0
@@ -78,9 +71,7 @@ def _across(normal: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack((first, np.cross(normal, first)))
 
 
-def _cuts(
-    points: NDArray[np.float64], triangles: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _cuts(points: Floats, triangles: Longs) -> tuple[Floats, Longs]:
     """Return where a plane cuts sides of triangles, (k, 2), and the two cuts of each triangle that it cuts, (t, 2).
 
     The plane is that of the first two axes. Points on it count as above it.
@@ -95,13 +86,13 @@ def _cuts(
     return _on_plane(points[ends[:, 0]], points[ends[:, 1]]), row.reshape(-1, 2)
 
 
-def _on_plane(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def _on_plane(a: Floats, b: Floats) -> Floats:
     """Return where segments whose ends are on two sides of the plane meet it, (k, 2)."""
     share = a[:, 2] / (a[:, 2] - b[:, 2])
     return a[:, :2] + share[:, None] * (b[:, :2] - a[:, :2])
 
 
-def _loops(places: NDArray[np.float64], pairs: NDArray[np.int64]) -> list[NDArray[np.float64]]:
+def _loops(places: Floats, pairs: Longs) -> list[Floats]:
     """Return the closed polygons, (n, 2) each, that segments between places form; forks and open ends have none."""
     meeting: list[list[int]] = [[] for _ in places]
     for segment, (a, b) in enumerate(pairs.tolist()):
@@ -124,12 +115,12 @@ def _loops(places: NDArray[np.float64], pairs: NDArray[np.int64]) -> list[NDArra
     return found
 
 
-def _area(loop: NDArray[np.float64]) -> float:
+def _area(loop: Floats) -> float:
     x, y = loop.T
     return abs(float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())) / 2.0
 
 
-def _within(places: NDArray[np.float64], loop: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _within(places: Floats, loop: Floats) -> Flags:
     """Return which places, (k, 2), are inside of a polygon: a ray from there crosses it an odd number of times."""
     a, b = loop, np.roll(loop, -1, axis=0)
     crossed = (a[:, 1] > places[:, 1, None]) != (b[:, 1] > places[:, 1, None])

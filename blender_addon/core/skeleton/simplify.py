@@ -3,17 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats, Longs
 from ..small_matrices import dot
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> NDArray[np.int64]:
+def kept_points(points: Floats, tolerance: Floats) -> Longs:
     """Return the points of a chain that are kept, ascending.
 
     They include its ends, and no other point is farther than its tolerance from the chain of the kept points.
@@ -41,9 +37,7 @@ def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> 
     return np.array(sorted(kept), np.int64)
 
 
-def _distance(
-    points: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _distance(points: Floats, a: Floats, b: Floats) -> Floats:
     """Return the distances from points to a segment."""
     along = b - a
     square = float(dot(along, along))

@@ -4,15 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Floats, Ints, Longs
 from ..small_matrices import placed
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +29,14 @@ class Skeleton:
         Rows of `points`, ascending: all ends of branches, and points without a branch.
     """
 
-    points: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    branch_offsets: NDArray[np.int32]
-    branch_points: NDArray[np.int32]
-    nodes: NDArray[np.int32]
+    points: Floats
+    radius: Floats
+    branch_offsets: Ints
+    branch_points: Ints
+    nodes: Ints
 
     @property
-    def branches(self) -> list[NDArray[np.int32]]:
+    def branches(self) -> list[Ints]:
         """Return the points of each branch."""
         return np.split(self.branch_points, self.branch_offsets[1:-1]) if self.count else []
 
@@ -49,7 +46,7 @@ class Skeleton:
         return len(self.branch_offsets) - 1
 
     @property
-    def edges(self) -> NDArray[np.int32]:
+    def edges(self) -> Ints:
         """Return the pairs of neighbours along the branches, (e, 2), branch after branch."""
         pairs = np.column_stack((self.branch_points[:-1], self.branch_points[1:]))
         within = np.ones(len(pairs), bool)
@@ -57,7 +54,7 @@ class Skeleton:
         return pairs[within]
 
     @property
-    def degree(self) -> NDArray[np.int64]:
+    def degree(self) -> Longs:
         """Return the number of edges at each point, (p,): 1 at tips, 3 or more at forks."""
         return np.bincount(self.edges.ravel(), minlength=len(self.points))
 
@@ -82,17 +79,12 @@ class Skeleton:
         steps = np.diff(self.points[self.edges], axis=1)[:, 0]
         return float(np.linalg.norm(steps, axis=1).sum())
 
-    def placed(self, frame: NDArray[np.float64]) -> Skeleton:
+    def placed(self, frame: Floats) -> Skeleton:
         """Return the skeleton moved and turned by a (4, 4) matrix."""
         return replace(self, points=placed(self.points, frame))
 
 
-def skeleton_of(
-    points: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    branches: list[NDArray[np.int64]],
-    singles: NDArray[np.int64],
-) -> Skeleton:
+def skeleton_of(points: Floats, radius: Floats, branches: list[Longs], singles: Longs) -> Skeleton:
     """Return a skeleton of the points that `branches` and `singles` use; both are rows of `points`."""
     used = np.unique(np.concatenate([*branches, singles]).astype(np.int64))
     row = np.full(len(points), -1, np.int64)

@@ -3,13 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ..curves.rules import Loops
 from ..samples.density import percent
-
-if TYPE_CHECKING:
-    from ..curves.rules import Loops
-    from .fill import Filled
+from .fill import Filled
 
 
 def skeleton_warnings(loops: Loops, sheets: int, outside: int, joined: int = 0) -> list[str]:

@@ -12,23 +12,19 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 
+from ..arrays import Longs
 from ..curves.smooth_line import marks_of
 from ..files.extensions import extension_of
 from ..files.json_figures import known
 from ..files.vtp import write_vtp
 from ..files.whole_file import write_whole
-from .branches import MEASURES, branches_of
+from .branches import MEASURES, Branches, branches_of
+from .parts import Parts
 from .skeleton import Skeleton
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .branches import Branches
-    from .parts import Parts
 
 _ALONG, _FORK, _END = 0, 5, 6  # types of SWC
 
@@ -98,7 +94,7 @@ def _write_swc(content: _Content, stream: BinaryIO) -> None:
         stream.write(text.encode("ascii"))
 
 
-def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _tree(skeleton: Skeleton) -> tuple[Longs, Longs]:
     """Return the parent of each point, -1 for roots, and all points, parents first; the thickest of a part is root."""
     neighbours: list[list[int]] = [[] for _ in skeleton.points]
     for a, b in skeleton.edges.tolist():

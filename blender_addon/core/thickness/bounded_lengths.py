@@ -8,21 +8,17 @@ is at some of these places on a face, pieces of the face replace the triangles a
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..samples.chosen import ChosenSamples
 from ..settings import Edges
-from .close_walls import is_shorter
+from ..shape.shape import Shape
+from .close_walls import CloseWalls, is_shorter
 from .face_pieces import face_pieces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..shape.shape import Shape
-    from .close_walls import CloseWalls
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,24 +47,20 @@ class MeasuredSurface:
         By the faces, whether that ball only comes to rest against the triangle, so that no area of it is between walls.
     """
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    lengths: NDArray[np.float64]
-    at_edge: NDArray[np.bool_]
-    faces: NDArray[np.int32] | None
-    at_most: NDArray[np.float64]
-    face_of_triangles: NDArray[np.int32] | None = None
-    between_walls: NDArray[np.float64] | None = None
-    between_parallel: NDArray[np.float64] | None = None
-    at_rest: NDArray[np.bool_] | None = None
+    points: Floats
+    triangles: Ints
+    lengths: Floats
+    at_edge: Flags
+    faces: Ints | None
+    at_most: Floats
+    face_of_triangles: Ints | None = None
+    between_walls: Floats | None = None
+    between_parallel: Floats | None = None
+    at_rest: Flags | None = None
 
 
 def bounded(
-    shape: Shape,
-    chosen: ChosenSamples,
-    surface: MeasuredSurface,
-    walls: CloseWalls,
-    edges: Edges,
+    shape: Shape, chosen: ChosenSamples, surface: MeasuredSurface, walls: CloseWalls, edges: Edges
 ) -> MeasuredSurface:
     """Lower the lengths of a surface to the close walls; samples on edges stay grey where the settings say so."""
     if not np.isfinite(walls.at_vertices).any():
@@ -108,7 +100,7 @@ def _with_pieces(
     return _joined(left, points, triangles[near], faces[near], distance[near])
 
 
-def _without(surface: MeasuredSurface, torn: NDArray[np.bool_]) -> MeasuredSurface:
+def _without(surface: MeasuredSurface, torn: Flags) -> MeasuredSurface:
     """Remove the triangles at close walls all of whose corners lie on torn faces; corners on edges lie on any face."""
     if surface.faces is None:
         return surface
@@ -120,11 +112,7 @@ def _without(surface: MeasuredSurface, torn: NDArray[np.bool_]) -> MeasuredSurfa
 
 
 def _joined(
-    surface: MeasuredSurface,
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    faces: NDArray[np.int32],
-    distance: NDArray[np.float64],
+    surface: MeasuredSurface, points: Floats, triangles: Ints, faces: Ints, distance: Floats
 ) -> MeasuredSurface:
     """Add triangles, with their faces and lengths, to a surface."""
     names, corners = np.unique(triangles, return_inverse=True)
@@ -145,11 +133,8 @@ def _joined(
 
 
 def _of_pieces(
-    middles: NDArray[np.float64],
-    walls: CloseWalls,
-    some: NDArray[np.intp],
-    places: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    middles: Floats, walls: CloseWalls, some: NDArray[np.intp], places: Floats
+) -> Floats:
     """(p,) the distance at the place next to each piece; infinite where that is none of some close walls.
 
     Each of these walls has at least the piece next to it.

@@ -9,22 +9,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..portable_cosine import cosine
+from ..samples.chosen import ChosenSamples
+from ..samples.walls import Walls
 from ..settings import Between
+from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..samples.walls import Walls
-    from ..shape.shape import Shape
 
 # A way through the solid counts where it is shorter than this share of the measured length.
 _SHORTER = 0.95
@@ -58,12 +55,12 @@ class CloseWalls:
         faces; infinite where none is known.
     """
 
-    points: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    share: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    sample: NDArray[np.int32]
-    at_vertices: NDArray[np.float64]
+    points: Floats
+    distance: Floats
+    share: Floats
+    faces: Ints
+    sample: Ints
+    at_vertices: Floats
 
 
 def no_close_walls(shape: Shape) -> CloseWalls:
@@ -71,13 +68,13 @@ def no_close_walls(shape: Shape) -> CloseWalls:
     return CloseWalls(np.empty((0, 3)), np.empty(0), np.empty(0), none, none, far)
 
 
-def is_shorter(way: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.bool_]:
+def is_shorter(way: Floats, lengths: Floats) -> Flags:
     """Whether ways through the solid count, compared with the lengths that were measured."""
     return way < _SHORTER * lengths
 
 
 def close_walls(
-    shape: Shape, chosen: ChosenSamples, lengths: NDArray[np.float64], between: Between
+    shape: Shape, chosen: ChosenSamples, lengths: Floats, between: Between
 ) -> CloseWalls:
     """Find the places where the opposite wall is closer than the measured length.
 
@@ -127,7 +124,7 @@ def _known(shape: Shape, walls: Walls, overlapping: bool) -> NDArray[np.intp]:
     return finite[edge > _REACH * walls.distance[finite] + spacing / _STEPS]
 
 
-def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> Flags:
     """(k,) whether ways begin and end where the solid does: not at faces of several parts that coincide."""
     places, way = walls.points[rows], walls.distance[rows]
     normals, _ = unit_normals(shape.points[shape.triangles[walls.faces[rows]]])
@@ -139,7 +136,7 @@ def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> NDArray[
     return through
 
 
-def _at_vertices(shape: Shape, walls: Walls, known: NDArray[np.intp]) -> NDArray[np.float64]:
+def _at_vertices(shape: Shape, walls: Walls, known: NDArray[np.intp]) -> Floats:
     """As `CloseWalls.at_vertices`."""
     found = np.full(len(shape.points), np.inf)
     way = np.full(len(walls.distance), np.inf)
@@ -157,9 +154,7 @@ def _at_vertices(shape: Shape, walls: Walls, known: NDArray[np.intp]) -> NDArray
     return found
 
 
-def _distance_to_acute_edges(
-    shape: Shape, points: NDArray[np.float64], spacing: float
-) -> NDArray[np.float64]:
+def _distance_to_acute_edges(shape: Shape, points: Floats, spacing: float) -> Floats:
     """(k,) the distance to the nearest acute convex edge, too large by at most a step; infinite where there is none."""
     ends = _acute_edges(shape)
     if not len(points) or not len(ends):
@@ -176,7 +171,7 @@ def _distance_to_acute_edges(
     return np.linalg.norm(places[nearest] - points, axis=1)
 
 
-def _acute_edges(shape: Shape) -> NDArray[np.float64]:
+def _acute_edges(shape: Shape) -> Floats:
     """(e, 2, 3) the ends of the edges at which two faces enclose a small angle of the solid."""
     triangles = shape.triangles.astype(np.int64)
     normals, _ = unit_normals(shape.points[triangles])

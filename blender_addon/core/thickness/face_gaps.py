@@ -3,17 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Floats
 from ..small_matrices import dot
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-
-def face_gaps(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+def face_gaps(first: Floats, second: Floats) -> Floats:
     """(p,) the distances of (p, 3, 3) triangles: of a corner from a face, or of two sides from each other."""
     least = np.full(len(first), np.inf)
     for corner in range(3):
@@ -24,12 +20,12 @@ def face_gaps(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArra
     return least
 
 
-def _side(triangles: NDArray[np.float64], number: int) -> NDArray[np.float64]:
+def _side(triangles: Floats, number: int) -> Floats:
     """(p, 2, 3) the ends of a side."""
     return triangles[:, [number, (number + 1) % 3]]
 
 
-def _heights(points: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+def _heights(points: Floats, triangles: Floats) -> Floats:
     """(p,) how far points are over their triangles; infinite where they are beside these."""
     sides = np.roll(triangles, -1, axis=1) - triangles
     normal = np.cross(sides[:, 0], sides[:, 1])
@@ -40,7 +36,7 @@ def _heights(points: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDA
     return np.where(over, height, np.inf)
 
 
-def _between_sides(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+def _between_sides(one: Floats, other: Floats) -> Floats:
     """(p,) the distances of (p, 2, 3) segments (Ericson 2005, section 5.1.9)."""
     u, v, from_other = one[:, 1] - one[:, 0], other[:, 1] - other[:, 0], one[:, 0] - other[:, 0]
     uu, vv, uv = dot(u, u), dot(v, v), dot(u, v)
@@ -52,6 +48,6 @@ def _between_sides(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDAr
     return np.sqrt(dot(away, away))
 
 
-def _share(part: NDArray[np.float64], whole: NDArray[np.float64]) -> NDArray[np.float64]:
+def _share(part: Floats, whole: Floats) -> Floats:
     """(p,) a part of a length that is not 0, from 0 to 1."""
     return np.clip(part / np.where(whole > 0.0, whole, np.inf), 0.0, 1.0)

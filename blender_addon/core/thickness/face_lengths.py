@@ -8,29 +8,26 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine import native
+from ..machine.progress import Progress
+from ..samples.analysed import Sides
 from ..samples.buried_samples import bounding_share
 from ..samples.sample_spacing import first_pass
-from ..settings import Between, Edges, Noise, SamplingMode, SidesFrom
+from ..settings import Between, Edges, Noise, SamplingMode, Settings, SidesFrom, ThicknessSettings
 from ..shape.nearness import same_place
 from ..shape.outward_faces import are_left_out
+from ..shape.shape import Shape
 from ..shape.sharp_angle import sharp_angle_of
 from ..shape.triangles import unit_normals
 from .bounded_lengths import MeasuredSurface
 from .close_walls import rounding_of
 from .fine_faces import FineFaces, coarse_faces, cut_faces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..machine.progress import Progress
-    from ..samples.analysed import Sides
-    from ..settings import Settings, ThicknessSettings
-    from ..shape.shape import Shape
 
 # The mesh itself shows its thickness where its edges are at most this number of spacings long. If they are longer on
 # a larger share of the area, faces are cut until no edge is longer than the other number of spacings.
@@ -57,7 +54,7 @@ class MeasuredFaces:
 
     reason: str
     sides: Sides
-    row: NDArray[np.int64]
+    row: Longs
     gaps: int = 0
     thinned: str = ""
 
@@ -72,9 +69,9 @@ class _Balls:
         The diameter of the ball, the same if it lies between walls, and if these are nearly parallel; else infinite.
     """
 
-    any: NDArray[np.float64]
-    wall: NDArray[np.float64]
-    parallel: NDArray[np.float64]
+    any: Floats
+    wall: Floats
+    parallel: Floats
 
 
 def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> bool:
@@ -98,7 +95,7 @@ def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> b
 
 def lengths_by_faces(
     shape: Shape, settings: Settings, wanted: ThicknessSettings, progress: Progress
-) -> tuple[MeasuredSurface, NDArray[np.bool_], NDArray[np.int64], bool]:
+) -> tuple[MeasuredSurface, Flags, Longs, bool]:
     """Measure a shape of which `are_enough` is true.
 
     Returns
@@ -157,7 +154,7 @@ def lengths_by_faces(
     return surface, filled.measured[:count], row, fine is not coarse
 
 
-def first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def first_rows(points: Floats) -> Longs:
     """(n,) the first row with the coordinates of each."""
     place = same_place(points)
     first = np.empty(place.max(initial=-1) + 1, np.int64)
@@ -182,7 +179,7 @@ def longest_piece(shape: Shape, settings: Settings) -> float:
     return _FINE * spacing
 
 
-def _ends(fine: FineFaces, kind: int) -> NDArray[np.int32]:
+def _ends(fine: FineFaces, kind: int) -> Ints:
     """(k,) the ends of edges of a kind, some of them several times."""
     rows, sides = np.nonzero(fine.kinds == kind)
     ends = fine.triangles[rows[:, None], np.column_stack((sides, (sides + 1) % 3))]
@@ -193,12 +190,7 @@ class _Places:
     """Where balls are looked for: the corners of pieces, and the middles of those that have all corners on edges."""
 
     def __init__(
-        self,
-        shape: Shape,
-        balls_in: Any,
-        fine: FineFaces,
-        bare: NDArray[np.intp],
-        middle: NDArray[np.float64],
+        self, shape: Shape, balls_in: Any, fine: FineFaces, bare: NDArray[np.intp], middle: Floats
     ) -> None:
         self._balls_in, self._middle, self._rounding = balls_in, middle, rounding_of(shape)
         self.fine, self.bare = fine, bare
@@ -209,7 +201,7 @@ class _Places:
         self.place = np.append(fine.triangles.ravel(), len(fine.points) + np.arange(len(bare)))
         self.piece = np.append(np.repeat(np.arange(len(fine.triangles)), 3), bare)
 
-    def balls(self, at_edge: NDArray[np.bool_], progress: Progress) -> _Balls:
+    def balls(self, at_edge: Flags, progress: Progress) -> _Balls:
         """Measure at each place once, at one on an edge where the solid is not convex on each of its faces."""
         several = np.zeros(len(self.points), bool)
         several[_ends(self.fine, _REFLEX)] = True
@@ -228,7 +220,7 @@ class _Places:
         of_wall[at[least]], of_parallel[at[least]] = found[1][least], found[2][least]
         return _Balls(of_any, of_wall, of_parallel)
 
-    def rolled(self, some: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def rolled(self, some: NDArray[np.intp]) -> tuple[Floats, Floats]:
         """The balls between walls, and nearly parallel ones, to which those at some of the rows of `place` roll."""
         with native.own_errors():
             walls, parallel = self._balls_in.rolled_balls(
@@ -265,9 +257,7 @@ class _Filled:
         That ball came to rest against the triangle.
     """
 
-    def __init__(
-        self, places: _Places, balls: _Balls, on_edge: NDArray[np.bool_], edges: Edges
-    ) -> None:
+    def __init__(self, places: _Places, balls: _Balls, on_edge: Flags, edges: Edges) -> None:
         self._places = places
         self._on_edge = np.append(on_edge, np.zeros(len(places.bare), bool))
         values = balls.any if edges is Edges.BALL else balls.wall
@@ -284,7 +274,7 @@ class _Filled:
         if edges is not Edges.GREY:
             self._fill(sheet, sources)
 
-    def _least(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _least(self, values: Floats) -> Floats:
         """(f,) the least of values at the corners and middles of triangles; on an edge they are of other faces, too."""
         place, piece = self._places.place, self._places.piece
         least = np.full(len(self._places.fine.triangles), np.inf)
@@ -292,7 +282,7 @@ class _Filled:
         np.minimum.at(least, piece[inside], values[place[inside]])
         return least
 
-    def _sources(self, sheet: NDArray[np.int64]) -> NDArray[np.float64]:
+    def _sources(self, sheet: Longs) -> Floats:
         """The length that others in a sheet may take from each row of `place`; infinite where there is none."""
         place, piece = self._places.place, self._places.piece
         known = ~self._on_edge[place] & self.measured[place]
@@ -310,14 +300,14 @@ class _Filled:
         found[alone] = largest[alone]
         return found
 
-    def _largest(self, group: NDArray[np.int64]) -> NDArray[np.float64]:
+    def _largest(self, group: Longs) -> Floats:
         """The diameter of the largest ball in the group of pieces of each row of `place`."""
         place, piece = self._places.place, self._places.piece
         largest = np.zeros(len(group))
         np.maximum.at(largest, group[piece], self._own[place])
         return largest[group[piece]]
 
-    def _fill(self, sheet: NDArray[np.int64], sources: NDArray[np.float64]) -> None:
+    def _fill(self, sheet: Longs, sources: Floats) -> None:
         place, piece = self._places.place, self._places.piece
         nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(sources)))
         known = np.isfinite(away)
@@ -329,7 +319,7 @@ class _Filled:
         filled[place[first]] = of_sheet[first]
         self.lengths = np.where(self.measured, self.lengths, filled)
 
-    def _are_largest(self, sheet: NDArray[np.int64]) -> NDArray[np.bool_]:
+    def _are_largest(self, sheet: Longs) -> Flags:
         """Whether no neighbour of a place has a larger ball, by the row of `place`."""
         place, piece = self._places.place, self._places.piece
         own = np.where(self._on_edge, 0.0, self._own)
@@ -341,9 +331,7 @@ class _Filled:
         first[np.unique(place, return_index=True)[1]] = True
         return np.asarray(first & (own[place] > 0.0) & (own[place] >= beside[place]))
 
-    def _nearest(
-        self, sheet: NDArray[np.int64], sources: NDArray[np.intp]
-    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    def _nearest(self, sheet: Longs, sources: NDArray[np.intp]) -> tuple[NDArray[np.intp], Floats]:
         """The nearest of some rows of `place` in the same sheet, and how far it is; infinite where there is none.
 
         Sheets are laid side by side, so far apart that the nearest row is one of the same sheet.
@@ -361,14 +349,14 @@ class _Filled:
         return nearest, np.where(sheet[nearest] == sheet, away, np.inf)
 
 
-def _without(known: NDArray[np.bool_], group: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _without(known: Flags, group: Longs) -> Flags:
     """Whether nothing in the group of each row is known."""
     some = np.zeros(int(group.max(initial=-1)) + 1, bool)
     some[group[known]] = True
     return ~some[group]
 
 
-def _joined(fine: FineFaces, across: int) -> NDArray[np.int64]:
+def _joined(fine: FineFaces, across: int) -> Longs:
     """(f,) the lowest row of the triangles that are joined to each across edges of kinds up to one."""
     count = len(fine.points)
     tails = fine.triangles.astype(np.int64)

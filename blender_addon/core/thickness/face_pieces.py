@@ -4,22 +4,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints, Longs
+from ..samples.walls import Walls
+from ..shape.shape import Shape
 from ..small_matrices import times
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
-    from ..samples.walls import Walls
-    from ..shape.shape import Shape
-
-
-def face_pieces(
-    shape: Shape, some: NDArray[np.intp], places: Walls
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+def face_pieces(shape: Shape, some: NDArray[np.intp], places: Walls) -> tuple[Floats, Ints, Ints]:
     """Cut some faces into congruent pieces, each about as large as an equilateral triangle between samples.
 
     Parameters
@@ -56,7 +51,7 @@ def face_pieces(
     )
 
 
-def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> NDArray[np.int64]:
+def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> Longs:
     """(m,) the number of parts into which each side of a face is cut."""
     a, b, c = shape.points[shape.triangles[faces]].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
@@ -67,7 +62,7 @@ def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> NDArray[np.in
     return np.maximum(1, np.ceil(np.sqrt(area / (math.sqrt(3.0) / 4)) / spacing)).astype(np.int64)
 
 
-def _lattice(cut: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _lattice(cut: int) -> tuple[Floats, Longs]:
     """(n, 3) shares of the corners of a triangle at the points of a lattice in it, and (cut^2, 3) its pieces."""
     i, j = np.nonzero(np.add.outer(np.arange(cut + 1), np.arange(cut + 1)) <= cut)
     row = np.full((cut + 2, cut + 2), -1)

@@ -8,16 +8,13 @@ normal of its own, so walls that meet at a vertex can be moved by different amou
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..shape.triangles import unit_normals
 from ..small_matrices import shortest_solutions
 from ..united import united
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # Directions in which the normals at a vertex differ by less than this share are left alone: a vertex between two
 # nearly opposite walls, as at the tip of a blade, would run far away to offset both.
@@ -39,21 +36,19 @@ class Fans:
         One of the triangles of each fan.
     """
 
-    of_corners: NDArray[np.int64]
-    vertex: NDArray[np.int64]
-    normal: NDArray[np.float64]
-    triangle: NDArray[np.int64]
+    of_corners: Longs
+    vertex: Longs
+    normal: Floats
+    triangle: Longs
 
-    def of_smooth_parts(self, sharp: NDArray[np.int32]) -> NDArray[np.bool_]:
+    def of_smooth_parts(self, sharp: Ints) -> Flags:
         """(k,) the fans of parts of the surface that no sharp edge bounds; `sharp` is as of `fans_of`."""
         pairs = np.concatenate((self.of_corners[:, :2], self.of_corners[:, 1:]))
         part = united(len(self.vertex), pairs)
         at_sharp = np.isin(self.vertex, sharp)
         return ~np.isin(part, part[at_sharp])
 
-    def spread(
-        self, points: NDArray[np.float64], amount: NDArray[np.float64], slope: float
-    ) -> NDArray[np.float64]:
+    def spread(self, points: Floats, amount: Floats, slope: float) -> Floats:
         """(k,) the least amounts nowhere below the given ones that fall by `slope` per length along the fans."""
         one, two = self.of_corners.ravel(), np.roll(self.of_corners, -1, axis=1).ravel()
         ends = points[self.vertex[one]], points[self.vertex[two]]
@@ -68,7 +63,7 @@ class Fans:
             changed = found > before
         return found
 
-    def offsets(self, vertices: int, amount: NDArray[np.float64]) -> NDArray[np.float64]:
+    def offsets(self, vertices: int, amount: Floats) -> Floats:
         """(vertices, 3) the shortest moves that offset each fan by its amount along its normal."""
         matrix, wanted = np.zeros((vertices, 3, 3)), np.zeros((vertices, 3))
         np.add.at(matrix, self.vertex, self.normal[:, :, None] * self.normal[:, None, :])
@@ -79,9 +74,7 @@ class Fans:
         return moves
 
 
-def fans_of(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], sharp: NDArray[np.int32]
-) -> Fans:
+def fans_of(points: Floats, triangles: Ints, sharp: Ints) -> Fans:
     """The fans of triangles.
 
     Parameters
@@ -107,9 +100,7 @@ def fans_of(
     )
 
 
-def _corners_beside(
-    triangles: NDArray[np.int32], sharp: NDArray[np.int32], count: int
-) -> NDArray[np.int64]:
+def _corners_beside(triangles: Ints, sharp: Ints, count: int) -> Longs:
     """(p, 2) corners, counted through all triangles, at the same end of an edge that two triangles share smoothly."""
     corner = np.arange(triangles.size).reshape(triangles.shape)
     following = np.roll(triangles, -1, axis=1).astype(np.int64)

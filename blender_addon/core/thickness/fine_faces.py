@@ -4,20 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    _Columns = NDArray[
-        Any
-    ]  # (3, n), turned until the edge that differs from the others comes first
-    # Which of the triangles have such a piece, its corners, and the kinds of its edges.
-    _Part = tuple[NDArray[np.bool_], tuple[NDArray[Any], ...], tuple[NDArray[Any], ...]]
+_Columns = NDArray[Any]  # (3, n), turned until the edge that differs from the others comes first
+# Which of the triangles have such a piece, its corners, and the kinds of its edges.
+_Part = tuple[Flags, tuple[NDArray[Any], ...], tuple[NDArray[Any], ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,22 +32,19 @@ class FineFaces:
         Of the edge from each corner to the next: 0, or what the edge of the faces had of which it is a part.
     """
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    faces: NDArray[np.int32]
+    points: Floats
+    triangles: Ints
+    faces: Ints
     kinds: NDArray[np.int8]
 
-    def edges(self) -> NDArray[np.int32]:
+    def edges(self) -> Ints:
         """(e, 2) the ends of all edges."""
         keys = np.unique(_keys(self.triangles, len(self.points)))
         return np.column_stack(np.divmod(keys, len(self.points))).astype(np.int32)
 
 
 def coarse_faces(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    edges: NDArray[np.int32],
-    of_edges: NDArray[np.int8],
+    points: Floats, triangles: Ints, edges: Ints, of_edges: NDArray[np.int8]
 ) -> FineFaces:
     """The faces themselves.
 
@@ -76,21 +70,21 @@ def coarse_faces(
     return FineFaces(points, triangles, np.arange(len(triangles), dtype=np.int32), kinds)
 
 
-def cut_faces(found: FineFaces, longest: float, some: NDArray[np.bool_] | None = None) -> FineFaces:
+def cut_faces(found: FineFaces, longest: float, some: Flags | None = None) -> FineFaces:
     """Halve edges that are longer than a length until there are none, or only around (m,) some of the faces."""
     while (cut := _halved(found, longest, some)) is not None:
         found = cut
     return found
 
 
-def _keys(triangles: NDArray[np.int32], count: int) -> NDArray[np.int64]:
+def _keys(triangles: Ints, count: int) -> Longs:
     """(f, 3) a number for the edge from each corner to the next."""
     tails = triangles.astype(np.int64)
     heads = np.roll(tails, -1, axis=1)
     return np.minimum(tails, heads) * count + np.maximum(tails, heads)
 
 
-def _halved(found: FineFaces, longest: float, some: NDArray[np.bool_] | None) -> FineFaces | None:
+def _halved(found: FineFaces, longest: float, some: Flags | None) -> FineFaces | None:
     points, triangles = found.points, found.triangles
     ways = points[np.roll(triangles, -1, axis=1)] - points[triangles]
     lengths = np.sqrt(dot(ways, ways))
@@ -118,11 +112,8 @@ def _halved(found: FineFaces, longest: float, some: NDArray[np.bool_] | None) ->
 
 
 def _pieces(
-    triangles: NDArray[np.int32],
-    kinds: NDArray[np.int8],
-    middles: NDArray[np.int64],
-    lengths: NDArray[np.float64],
-) -> list[tuple[NDArray[np.intp], NDArray[np.int64], NDArray[np.int8]]]:
+    triangles: Ints, kinds: NDArray[np.int8], middles: Longs, lengths: Floats
+) -> list[tuple[NDArray[np.intp], Longs, NDArray[np.int8]]]:
     """The pieces of triangles, grouped by how they were cut: the rows, the corners, and the kinds of their edges.
 
     Parameters

@@ -5,23 +5,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..samples.chosen import ChosenSamples
 from ..samples.surface_normals import cross
 from ..settings import Between, Edges, ThicknessSettings
+from ..shape.shape import Shape
 from .bounded_lengths import MeasuredSurface
 from .close_walls import CloseWalls, is_shorter, rounding_of
 from .face_lengths import MeasuredFaces
 from .thin_faces import face_of_triangles, thinnest_of_faces
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..shape.shape import Shape
 
 # A larger share of the surface without a thickness is reported; smaller ones come from single triangles at rims.
 UNKNOWN = 0.01
@@ -58,7 +55,7 @@ class Measurement:
     chosen: ChosenSamples | MeasuredFaces
     settings: ThicknessSettings
     surface: MeasuredSurface
-    measured: NDArray[np.bool_]
+    measured: Flags
     normals: str
     noise: float
     warnings: tuple[str, ...]
@@ -81,27 +78,27 @@ class Measurement:
         return int(self.chosen.samples.analysis.duplicates)
 
     @property
-    def points(self) -> NDArray[np.float64]:
+    def points(self) -> Floats:
         """(n, 3) the points of the measured surface."""
         return self.surface.points
 
     @property
-    def triangles(self) -> NDArray[np.int32]:
+    def triangles(self) -> Ints:
         """(f, 3) the triangles of the measured surface."""
         return self.surface.triangles
 
     @property
-    def lengths(self) -> NDArray[np.float64]:
+    def lengths(self) -> Floats:
         """(n,) the length at each point; infinite where there is no wall."""
         return self.surface.lengths
 
     @property
-    def at_edge(self) -> NDArray[np.bool_]:
+    def at_edge(self) -> Flags:
         """(n,) whether each point lies on a sharp edge."""
         return self.surface.at_edge
 
     @cached_property
-    def of_triangles(self) -> NDArray[np.float64]:
+    def of_triangles(self) -> Floats:
         """(f,) by the faces the least length at each triangle.
 
         By the axis it is the median of the lengths at the corners, so that no single sample decides. Where one or two
@@ -121,7 +118,7 @@ class Measurement:
         return np.minimum(median, self.surface.at_most)
 
     @cached_property
-    def of_walls(self) -> NDArray[np.float64]:
+    def of_walls(self) -> Floats:
         """(f,) the same without balls that only come to rest against a triangle, which moves none of its ends apart."""
         at_rest = self.surface.at_rest
         return (
@@ -129,19 +126,19 @@ class Measurement:
         )
 
     @cached_property
-    def drawn(self) -> NDArray[np.float64]:
+    def drawn(self) -> Floats:
         """(f,) the lengths that colours show: those of triangles, by the faces filled in where they have none."""
         filled = self.lengths[self.triangles].max(axis=1)
         by_axis = self.surface.between_walls is None
         return np.where(np.isfinite(self.of_triangles) | by_axis, self.of_triangles, filled)
 
     @cached_property
-    def areas(self) -> NDArray[np.float64]:
+    def areas(self) -> Floats:
         """(f,) the areas of the triangles."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
         return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
 
-    def areas_below(self, limit: float) -> NDArray[np.float64]:
+    def areas_below(self, limit: float) -> Floats:
         """(f,) the part of the area of each triangle that is drawn thinner than a limit.
 
         By the faces each corner stands for as much of its triangle as any other, but those on edges for none.
@@ -166,7 +163,7 @@ class Measurement:
         return None if found is None else float(found.min(initial=np.inf))
 
     @cached_property
-    def thinnest_place(self) -> NDArray[np.float64]:
+    def thinnest_place(self) -> Floats:
         """(3,) the place of the minimum: the middle of a triangle."""
         return self.points[self.triangles[self.of_triangles.argmin()]].mean(axis=0)
 
@@ -200,7 +197,7 @@ class Measurement:
             return np.asarray(module.nearest(samples.points, self.shape.points))
 
     @cached_property
-    def of_vertices(self) -> NDArray[np.float64]:
+    def of_vertices(self) -> Floats:
         """(v,) the length at each vertex of the shape, taken from the nearest sample and from walls that rays found."""
         lengths, way = self.lengths[self.row_of_vertices], self.walls.at_vertices
         samples = None if isinstance(self.chosen, MeasuredFaces) else self.chosen.samples
@@ -209,14 +206,14 @@ class Measurement:
         return np.where(is_shorter(way, lengths), way, lengths)
 
     @cached_property
-    def are_filled(self) -> NDArray[np.bool_]:
+    def are_filled(self) -> Flags:
         """(n,) whether the length of each point was measured elsewhere."""
         measured = np.ones(len(self.points), bool)
         measured[: len(self.measured)] = self.measured
         return np.isfinite(self.lengths) & ~measured
 
     @cached_property
-    def triangle_of_faces(self) -> NDArray[np.int32]:
+    def triangle_of_faces(self) -> Ints:
         """(m,) the triangle that represents each face of the shape, the thinnest one in it; -1 where there is none."""
         if self.triangles is self.shape.triangles:
             return np.arange(len(self.triangles), dtype=np.int32)

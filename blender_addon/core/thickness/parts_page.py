@@ -9,7 +9,6 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,13 +17,11 @@ from ..files.whole_file import write_whole
 from ..samples.density import share_text
 from ..settings import Between
 from ..small_matrices import placed
+from .measurement import Measurement
 from .picture import picture_of
 from .thickness_colours import scale_of
 from .thickness_page import STYLE, bars_of, figure_of, length_text
-
-if TYPE_CHECKING:
-    from .measurement import Measurement
-    from .thin_parts import ThinParts
+from .thin_parts import ThinParts
 
 _EYE, _SIZE = (0.62, -1.0, 0.42), (280, 210)
 _HEADS = (

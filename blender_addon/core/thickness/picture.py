@@ -7,15 +7,13 @@ import struct
 import sys
 import zlib
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints, Longs
 from ..samples.surface_normals import cross
 from ..small_matrices import length_of, times
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _FINE = 2  # pixels are computed that much finer in both directions, and averaged
 _STEP = 0.7  # between drawn points of a triangle, in fine pixels
@@ -25,13 +23,13 @@ _WHITE = 255
 
 
 def picture_of(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    colours: NDArray[np.float64],
-    direction: NDArray[np.float64],
+    points: Floats,
+    triangles: Ints,
+    colours: Floats,
+    direction: Floats,
     width: int,
     height: int,
-    focus: tuple[NDArray[np.float64], float] | None = None,
+    focus: tuple[Floats, float] | None = None,
 ) -> NDArray[np.uint8]:
     """Draw triangles on white, in parallel projection.
 
@@ -76,7 +74,7 @@ def png(pixels: NDArray[np.uint8]) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + b"".join(_part(name, data) for name, data in parts)
 
 
-def encoded(linear: NDArray[np.float64]) -> NDArray[np.float64]:
+def encoded(linear: Floats) -> Floats:
     """Return linear colours between 0 and 1 as sRGB."""
     power = 1.055 * np.maximum(linear, 0.0) ** (1 / 2.4) - 0.055
     return np.where(linear <= 0.0031308, 12.92 * linear, power)
@@ -86,7 +84,7 @@ def _part(name: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
 
-def _axes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+def _axes(direction: Floats) -> Floats:
     """Return the directions to the right, (3, 3), upwards and to the eye."""
     eye = direction / length_of(direction)
     up = np.array([0.0, 1.0, 0.0]) if abs(eye[2]) > 0.999 else np.array([0.0, 0.0, 1.0])
@@ -95,11 +93,7 @@ def _axes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack((right, np.cross(eye, right), eye))
 
 
-def _view(
-    flat: NDArray[np.float64],
-    size: NDArray[np.int64],
-    focus: tuple[NDArray[np.float64], float] | None,
-) -> tuple[NDArray[np.float64], float]:
+def _view(flat: Floats, size: Longs, focus: tuple[Floats, float] | None) -> tuple[Floats, float]:
     """Return what is in the middle, and how many fine pixels a length of 1 has."""
     if focus is not None:
         return focus[0], float(size.min()) / (2 * focus[1])
@@ -109,8 +103,8 @@ def _view(
 
 
 def _chunks(
-    flat: NDArray[np.float64], triangles: NDArray[np.int32], colours: NDArray[np.float64]
-) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+    flat: Floats, triangles: Ints, colours: Floats
+) -> Iterator[tuple[Floats, Floats, Floats]]:
     """Yield (m, 3, 3) corners, (m, 3, 3) shaded colours and (k, 3) weights of the points that are drawn of each."""
     corners = flat[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -125,7 +119,7 @@ def _chunks(
             yield corners[part], colours[triangles[part]] * shade[part, None, None], weights
 
 
-def _weights(count: int) -> NDArray[np.float64]:
+def _weights(count: int) -> Floats:
     """Return barycentric coordinates of a grid with `count` steps along each edge, (k, 3)."""
     i, j = np.mgrid[: count + 1, : count + 1]
     inside = i + j <= count
@@ -134,12 +128,7 @@ def _weights(count: int) -> NDArray[np.float64]:
 
 
 def _draw(
-    corners: NDArray[np.float64],
-    colours: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    size: NDArray[np.int64],
-    image: NDArray[np.float64],
-    depth: NDArray[np.float64],
+    corners: Floats, colours: Floats, weights: Floats, size: Longs, image: Floats, depth: Floats
 ) -> None:
     """Draw points into an image; of those in one pixel the nearest stays."""
     places = np.einsum("kc,mcx->mkx", weights, corners).reshape(-1, 3)

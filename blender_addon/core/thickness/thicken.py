@@ -11,35 +11,30 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Longs
 from ..errors import InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.mesh_parts import check_no_sheet
 from ..settings import Edges, Moving, Settings, ThickenSettings, ThicknessSettings
 from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
 from ..shape.sharp_angle import sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 from .face_gaps import face_gaps
-from .face_lengths import are_enough, first_rows
+from .face_lengths import MeasuredFaces, are_enough, first_rows
 from .fans import fans_of
 from .measurement import Measurement
 from .thickness import measure_thickness
 from .thin_in_part import subdivided, thin_in_part
 from .thin_parts import ThinParts, find_thin_parts
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..shape.shape import Shape
-    from .face_lengths import MeasuredFaces
 
 _ROUNDS = 8  # at most; two or three suffice where walls are not much curved
 _HALVES = 2  # so many rounds give each of two walls half
@@ -66,7 +61,7 @@ class Thickened:
     seconds : float
     """
 
-    moves: NDArray[np.float64]
+    moves: Floats
     before: Measurement
     after: Measurement
     left: ThinParts
@@ -84,7 +79,7 @@ def thicken(
     shape: Shape,
     settings: Settings,
     wanted: ThickenSettings,
-    selected: NDArray[np.bool_] | None = None,
+    selected: Flags | None = None,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Thickened:
@@ -140,7 +135,7 @@ def _settled(
     wanted: ThickenSettings,
     measured: Callable[[Shape, Edges], Measurement],
     progress: Progress,
-) -> tuple[NDArray[np.float64], bool]:
+) -> tuple[Floats, bool]:
     """(v, 3) the moves after which nothing lacks or no round helps, and whether farther ones make walls overlap."""
     moves = last = np.zeros_like(walls.points)
     best = walls.missing
@@ -227,7 +222,7 @@ class _Walls:
         found: Measurement,
         settings: Settings,
         wanted: ThickenSettings,
-        selected: NDArray[np.bool_] | None,
+        selected: Flags | None,
     ) -> None:
         self._shape, self._wanted = found.shape, wanted
         self._row = first_rows(self._shape.points)
@@ -253,7 +248,7 @@ class _Walls:
         self._held = np.zeros(len(self._shape.points), bool)
         self.narrowest = self._met = float("inf")
 
-    def _staying(self, selected: NDArray[np.bool_] | None) -> NDArray[np.bool_]:
+    def _staying(self, selected: Flags | None) -> Flags:
         """(k,) the fans that stay where they are: those of triangles that are not selected, if only these move."""
         still = np.zeros(len(self._fans.vertex), bool)
         if self._wanted.moving is Moving.SELECTED:
@@ -262,16 +257,14 @@ class _Walls:
         return still
 
     @property
-    def points(self) -> NDArray[np.float64]:
+    def points(self) -> Floats:
         """(v, 3) where the vertices were."""
         return self._shape.points
 
-    def shape_of(self, moves: NDArray[np.float64]) -> Shape:
+    def shape_of(self, moves: Floats) -> Shape:
         return replace(self._shape, points=self._shape.points + moves)
 
-    def moved_for(
-        self, found: Measurement, moves: NDArray[np.float64], number: int
-    ) -> NDArray[np.float64]:
+    def moved_for(self, found: Measurement, moves: Floats, number: int) -> Floats:
         """(v, 3) the moves after another round, from round 1 on."""
         points = self._shape.points + moves
         # Walls that are still thin after some rounds lack very little, or the opposite wall may gain no more.
@@ -295,7 +288,7 @@ class _Walls:
         step *= np.minimum(1.0, most / np.where(length > 0.0, length, 1.0))[:, None]
         return moves + self._without_turns(points, step[self._row])
 
-    def _lack(self, found: Measurement) -> NDArray[np.float64]:
+    def _lack(self, found: Measurement) -> Floats:
         """(k,) what each fan lacks to the limit: at its vertex, or on edges and coarse faces at its triangles."""
         limit = self._wanted.limit * (1.0 + _BEYOND)
         lengths = found.of_walls
@@ -314,7 +307,7 @@ class _Walls:
         np.maximum.at(lack, self._fans.of_corners, np.maximum(limit - at_corners, 0.0))
         return lack
 
-    def _look_across(self, moving: NDArray[np.bool_]) -> None:
+    def _look_across(self, moving: Flags) -> None:
         """Find how far fans may move at most: the walls of a narrow gap must not meet."""
         fresh = (moving & ~self._asked)[self._fans.of_corners].any(axis=1)
         self._asked |= moving
@@ -339,7 +332,7 @@ class _Walls:
             )
         np.minimum.at(self._most, self._fans.of_corners[rows], _OF_GAP * gap[:, None])
 
-    def without_crossings(self, moves: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
+    def without_crossings(self, moves: Floats) -> tuple[Floats, bool]:
         """(v, 3) the moves, less where faces would pass through each other, and whether any would.
 
         Corners of such faces go half as far, and half of that, and at last nowhere: then the faces are as they were.
@@ -357,7 +350,7 @@ class _Walls:
             rows = self._triangles[np.concatenate((low, high))]
             share[np.unique(rows)] *= 0.5 if number <= _HALVINGS else 0.0
 
-    def _gap_between(self, low: NDArray[np.int64], high: NDArray[np.int64]) -> float:
+    def _gap_between(self, low: Longs, high: Longs) -> float:
         """Return the least gap that there was between pairs of faces that share no corner."""
         shared = self._triangles[low][:, :, None] == self._triangles[high][:, None]
         apart = ~shared.any(axis=(1, 2))
@@ -375,14 +368,12 @@ class _Walls:
             f"{self._met:.3g}, so they gained less"
         )
 
-    def _pairs(self, shape: Shape) -> NDArray[np.int64]:
+    def _pairs(self, shape: Shape) -> Longs:
         """(p,) a number for each pair of faces that pass through each other."""
         low, high = shape.crossing.astype(np.int64).T
         return np.asarray(low * len(self._triangles) + high)
 
-    def _without_turns(
-        self, points: NDArray[np.float64], step: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def _without_turns(self, points: Floats, step: Floats) -> Floats:
         """The step without the vertices of triangles that it would turn over."""
         before, _ = unit_normals(points[self._triangles])
         while True:

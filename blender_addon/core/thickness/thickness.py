@@ -6,15 +6,16 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import astuple, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.noise import noise_of
 from ..samples.sampling_warnings import sampling_warnings
@@ -29,16 +30,11 @@ from ..samples.surface_normals import (
 from ..settings import Between, Edges, Form, Noise, SamplingMode, Settings, ThicknessSettings
 from ..shape.nearness import sample_of_row
 from ..shape.outward_faces import outward_shape, reading_warnings
+from ..shape.shape import Shape
 from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls, no_close_walls
 from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
 from .measurement import UNKNOWN, Measurement
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..samples.chosen import ChosenSamples
-    from ..shape.shape import Shape
 
 # From this noise on, in spacings, the mode Clean measures too small lengths, and every mode measures wrong lengths.
 _SOME, _TOO_MUCH = 0.05, 0.18
@@ -101,11 +97,7 @@ def _kept(found: Measurement) -> Measurement:
 
 
 def _by_faces(
-    shape: Shape,
-    settings: Settings,
-    wanted: ThicknessSettings,
-    progress: Progress,
-    start: float,
+    shape: Shape, settings: Settings, wanted: ThicknessSettings, progress: Progress, start: float
 ) -> Measurement:
     surface, measured, row, cut = lengths_by_faces(shape, settings, wanted, progress)
     count = len(surface.points)
@@ -176,7 +168,7 @@ def _up_to_faces(found: Measurement) -> Measurement:
     if not (more := _wider(found)):
         return found
 
-    def widened(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    def widened(lengths: Floats) -> Floats:
         return np.maximum(lengths + more, 0.0)
 
     surface, walls = found.surface, found.walls
@@ -207,7 +199,7 @@ def kept_measurement(key: str) -> Measurement | None:
 
 def _lengths(
     chosen: ChosenSamples, known: SurfaceNormals, wanted: ThicknessSettings, progress: Progress
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+) -> tuple[Floats, Flags]:
     """(n,) the length at every row, and (n,) whether it was measured there."""
     analysis = chosen.samples.analysis
     scan = wanted.noise is Noise.SCAN
@@ -227,7 +219,7 @@ def _lengths(
     return values[rows], measured[rows]
 
 
-def _noise(chosen: ChosenSamples, surface: NDArray[np.int32], known: SurfaceNormals) -> float:
+def _noise(chosen: ChosenSamples, surface: Ints, known: SurfaceNormals) -> float:
     """Measure the noise of vertices; samples that were laid on faces have none."""
     if chosen.sampling is not SamplingMode.VERTICES:
         return 0.0

@@ -9,14 +9,11 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .measurement import Measurement
+from ..arrays import Floats
+from .measurement import Measurement
 
 STEPS_BELOW, STEPS_ABOVE = 4, 8  # of the legend and of the histogram, below and above the limit
 STEPS = STEPS_BELOW + STEPS_ABOVE
@@ -41,7 +38,7 @@ class ThicknessScale:
     limit: float
     high: float
 
-    def positions(self, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    def positions(self, lengths: Floats) -> Floats:
         """(n,) positions of lengths on the scale of `colours` between 0 and 1; NaN where there is no length."""
         above = _VIOLET * (1.0 - _share(lengths, self.limit, self.high))
         below = 1.0 - (1.0 - _RED) * _share(lengths, self.low, self.limit)
@@ -51,7 +48,7 @@ class ThicknessScale:
         return np.where(np.isfinite(lengths), found, np.nan)
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> Floats:
         """(STEPS + 1,) the lengths between the steps of the legend and of the histogram."""
         if self.limit == self.low:
             return np.linspace(self.low, self.high, STEPS + 1)
@@ -69,7 +66,7 @@ def scale_of(found: Measurement, limit: float) -> ThicknessScale:
     return ThicknessScale(low, low, max(most, low))
 
 
-def histogram(found: Measurement, scale: ThicknessScale) -> NDArray[np.float64]:
+def histogram(found: Measurement, scale: ThicknessScale) -> Floats:
     """(STEPS,) the shares of the area with each colour; the last step has all that is thicker."""
     known = np.isfinite(found.drawn)
     step = np.searchsorted(scale.bounds[1:-1], found.drawn[known], side="right")
@@ -88,7 +85,7 @@ def _length_of_share(found: Measurement, share: float) -> float:
     return float(found.drawn[known][order[row]])
 
 
-def _share(lengths: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
+def _share(lengths: Floats, start: float, end: float) -> Floats:
     """(n,) positions between start (0) and end (1); 0 or 1 outside."""
     if not end > start:
         return (lengths > start).astype(np.float64)

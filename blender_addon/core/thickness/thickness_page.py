@@ -7,22 +7,19 @@ import base64
 import html
 import math
 import sys
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..axis.colours import colours
 from ..samples.density import share_text
 from ..samples.surface_normals import cross
 from ..small_matrices import length_of
+from .measurement import Measurement
 from .picture import encoded, picture_of, png
 from .thickness_colours import STEPS, ThicknessScale, histogram, scale_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .measurement import Measurement
-    from .thin_parts import Patch, ThinParts
+from .thin_parts import Patch, ThinParts
 
 _VIEWS = {  # from the shape to the eye
     "from the front and above": (0.62, -1.0, 0.42),
@@ -52,13 +49,7 @@ _PAGE = """<!doctype html>
 """
 
 
-def page_of(
-    found: Measurement,
-    parts: ThinParts,
-    title: str,
-    unit: str,
-    points: NDArray[np.float64],
-) -> str:
+def page_of(found: Measurement, parts: ThinParts, title: str, unit: str, points: Floats) -> str:
     """Return the page.
 
     Parameters
@@ -141,13 +132,7 @@ def bars_of(found: Measurement, scale: ThicknessScale, unit: str) -> str:
     )
 
 
-def _patches(
-    found: Measurement,
-    parts: ThinParts,
-    unit: str,
-    points: NDArray[np.float64],
-    rgb: NDArray[np.float64],
-) -> str:
+def _patches(found: Measurement, parts: ThinParts, unit: str, points: Floats, rgb: Floats) -> str:
     if not parts.patches:
         return ""
     shown = [
@@ -163,8 +148,8 @@ def _close_up(
     number: int,
     patch: Patch,
     unit: str,
-    points: NDArray[np.float64],
-    rgb: NDArray[np.float64],
+    points: Floats,
+    rgb: Floats,
 ) -> str:
     """Return a patch as it is seen along the normal of its thinnest triangle, and a little from the side."""
     rows = np.flatnonzero(parts.patch_of_triangles == number)

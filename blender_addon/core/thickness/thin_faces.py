@@ -3,21 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..shape.shape import Shape
+from ..shape.shape import Shape
 
 
-def face_of_triangles(
-    triangles: NDArray[np.int32], at_edge: NDArray[np.bool_], faces: NDArray[np.int32] | None
-) -> NDArray[np.int32]:
+def face_of_triangles(triangles: Ints, at_edge: Flags, faces: Ints | None) -> Ints:
     """(f,) the face of the shape in which all corners of a measured triangle lie; -1 where there is none.
 
     Corners on sharp edges lie in two faces and do not count.
@@ -42,13 +35,8 @@ def face_of_triangles(
 
 
 def thinnest_of_faces(
-    shape: Shape,
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    lengths: NDArray[np.float64],
-    at_edge: NDArray[np.bool_],
-    inside: NDArray[np.int32],
-) -> NDArray[np.int32]:
+    shape: Shape, points: Floats, triangles: Ints, lengths: Floats, at_edge: Flags, inside: Ints
+) -> Ints:
     """(m,) for each face of the shape the thinnest triangle of the measured surface that lies in it.
 
     For a face without such a triangle it is the thinnest triangle at the sample nearest to the middle of the face, and

@@ -8,28 +8,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..settings import Edges, ThicknessSettings
+from ..arrays import Flags, Ints
+from ..settings import Edges, Settings, ThicknessSettings
 from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
 from .face_lengths import are_enough, first_rows, longest_piece
 from .fine_faces import coarse_faces, cut_faces
+from .measurement import Measurement
 from .thickness import measure_thickness
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..settings import Settings
-    from ..shape.shape import Shape
-    from .measurement import Measurement
 
 _SOME = 0.02  # a smaller part of a face does not count
 DIVISIONS = 3  # at most; one suffices unless the new vertices make the samples denser
 
 
-def thin_in_part(found: Measurement, limit: float) -> NDArray[np.bool_]:
+def thin_in_part(found: Measurement, limit: float) -> Flags:
     """(m,) the faces that were cut for a measurement, and are thinner than a limit in one part of their area and not in
     another."""
     face, count = found.surface.face_of_triangles, len(found.shape.triangles)
@@ -48,9 +44,7 @@ def thin_in_part(found: Measurement, limit: float) -> NDArray[np.bool_]:
     return np.asarray((part > _SOME * area) & (rest > _SOME * area))
 
 
-def faces_to_divide(
-    shape: Shape, settings: Settings, limit: float
-) -> tuple[NDArray[np.bool_], float]:
+def faces_to_divide(shape: Shape, settings: Settings, limit: float) -> tuple[Flags, float]:
     """Find the faces that have to be divided before their walls can gain what they lack.
 
     There are none where the faces do not bound one solid, or the limit is 0.
@@ -95,9 +89,7 @@ def subdivided(shape: Shape, settings: Settings, limit: float) -> tuple[Shape, N
     return shape, face
 
 
-def _divided(
-    shape: Shape, some: NDArray[np.bool_], longest: float
-) -> tuple[Shape, NDArray[np.int32]]:
+def _divided(shape: Shape, some: Flags, longest: float) -> tuple[Shape, Ints]:
     row = first_rows(shape.points).astype(np.int32)
     sharp = row[np.zeros((0, 2), np.int32) if shape.sharp_edges is None else shape.sharp_edges]
     kinds = np.ones(len(sharp), np.int8)

@@ -4,16 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays import Flags, Floats, Ints
 from ..machine import native
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .measurement import Measurement
+from .measurement import Measurement
 
 
 @dataclass(frozen=True)
@@ -61,8 +57,8 @@ class ThinParts:
     limit: float
     minimum: float
     patches: tuple[Patch, ...]
-    patch_of_triangles: NDArray[np.int32]
-    patch_of_faces: NDArray[np.int32]
+    patch_of_triangles: Ints
+    patch_of_faces: Ints
     area: float
     share: float
 
@@ -110,17 +106,13 @@ def find_thin_parts(
     return ThinParts(limit, minimum, patches, numbers, of_faces, area, share)
 
 
-def _kept(
-    numbers: NDArray[np.int32], areas: NDArray[np.float64], large: NDArray[np.bool_]
-) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+def _kept(numbers: Ints, areas: Floats, large: Flags) -> tuple[Ints, Floats]:
     """Drop the patches that are not large."""
     renumbered = np.append(np.where(large, np.cumsum(large) - 1, -1), -1)
     return renumbered[numbers].astype(np.int32), areas[large]
 
 
-def _described(
-    found: Measurement, numbers: NDArray[np.int32], areas: NDArray[np.float64]
-) -> tuple[NDArray[np.int32], tuple[Patch, ...]]:
+def _described(found: Measurement, numbers: Ints, areas: Floats) -> tuple[Ints, tuple[Patch, ...]]:
     """Return the new numbers of the patches, and the patches, the thinnest first."""
     inside = np.flatnonzero(numbers >= 0)
     by_value = inside[np.lexsort((inside, found.of_triangles[inside]))]

@@ -12,10 +12,11 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 
+from ..arrays import Flags, Floats
 from ..axis.colours import colours
 from ..files.extensions import extension_of
 from ..files.json_figures import known
@@ -28,18 +29,11 @@ from .thickness_colours import scale_of
 from .thickness_page import page_of
 from .thin_parts import ThinParts
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 _CHUNK = 1 << 16  # this many rows are formatted at once
 
 
 def export_thickness(
-    found: Measurement,
-    parts: ThinParts,
-    path: str | os.PathLike,
-    unit: str = "",
-    title: str = "",
+    found: Measurement, parts: ThinParts, path: str | os.PathLike, unit: str = "", title: str = ""
 ) -> Path:
     """Write a measurement in world coordinates; the extension of `path` chooses the format.
 
@@ -106,7 +100,7 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
     }
 
 
-def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+def _mover(found: Measurement) -> Callable[[Floats], Floats]:
     """Return the function that moves points of the shape to their places in the world."""
     frame = found.shape.frame
     if np.array_equal(frame, np.identity(4)):
@@ -134,7 +128,7 @@ def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: 
         stream.write(text.encode("ascii"))
 
 
-def _beside_vertices(found: Measurement) -> NDArray[np.bool_]:
+def _beside_vertices(found: Measurement) -> Flags:
     """Return whether each point of the measured surface is no vertex of the shape, (n,)."""
     count = len(found.shape.points)
     place = same_place(np.concatenate((found.shape.points, found.points)))
