@@ -3,11 +3,13 @@
 
 import medial_axis
 import numpy as np
+import pytest
 from medial_axis.core.curves.net import Net
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
-from medial_axis.core.skeleton.join_pieces import join_pieces
+from medial_axis.core.skeleton.join_pieces import join_pieces, no_joins
+from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from support import meshes, swept
 from support.thick_meshes import block
 
@@ -24,7 +26,7 @@ class FacesOnly:
 
 def joined(medial, mesh, net):
     mesh = np.asarray(mesh[0], float), np.asarray(mesh[1], np.int32)
-    return join_pieces(net, FacesOnly(medial, mesh), Shape(*mesh))
+    return join_pieces(net, FacesOnly(medial, mesh), Shape(*mesh))[0]
 
 
 def net_of(points, wires, singles):
@@ -84,13 +86,28 @@ def chain_of_tubes(count, radius, seed):
     return meshes.join(*tubes)
 
 
-def test_a_torn_chain_of_open_tubes_is_joined_and_told(monkeypatch):
+def test_a_torn_chain_of_open_tubes_is_joined_and_told(monkeypatch, tmp_path):
     points, triangles = chain_of_tubes(20, 0.1, 5)
     shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
     settings = Settings(samples=500, sampling=SamplingMode.SURFACE)
     found = compute_skeleton(shape, settings, SkeletonSettings())
-    monkeypatch.setattr(medial_axis.core.skeleton.compute, "join_pieces", lambda *_: 0)
+    monkeypatch.setattr(
+        medial_axis.core.skeleton.compute, "join_pieces", lambda *_: (0, no_joins())
+    )
     torn = compute_skeleton(shape, settings, SkeletonSettings())
     assert found.skeleton.pieces < torn.skeleton.pieces
     assert any("were joined to others across gaps" in sentence for sentence in found.warnings)
+    whole, path = found.skeleton, tmp_path / "chain.swc"
+    assert len(whole.gaps) and (whole.gaps > 0.0).all() and not len(torn.skeleton.gaps)
+    assert torn.skeleton.pieces - whole.pieces >= len(whole.gaps)
+    export_skeleton(whole, found.parts, path)
+    rows = {line.split()[0]: line.split() for line in path.read_text().splitlines()}
+    lines = [
+        x for x in path.read_text().splitlines() if x.startswith("# joins pieces across a gap: ")
+    ]
+    assert len(lines) == len(whole.gaps)
+    for line, gap in zip(lines, whole.gaps, strict=True):
+        a, b, length = line.split(": ")[1].split()
+        ends = np.array([[float(x) for x in rows[end][2:5]] for end in (a, b)])
+        assert float(length) == gap == pytest.approx(np.linalg.norm(ends[1] - ends[0]))
     assert any("the surface is open" in sentence for sentence in found.warnings)

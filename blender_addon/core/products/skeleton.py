@@ -104,6 +104,7 @@ examples:
             "ends": skeleton.tips,
             "loops": skeleton.loops,
             "pieces": skeleton.pieces,
+            "gaps_joined": skeleton.gaps.tolist(),
             "loops_cut": found.loops.cut,
             "loops_filled": found.loops.filled,
             "mirrored": found.mirrored,

@@ -34,7 +34,7 @@ from .chosen_ends import join_ends
 from .fill import Filled, filled
 from .forks import draw_forks
 from .inscribe import inscribe
-from .join_pieces import join_pieces
+from .join_pieces import join_pieces, no_joins
 from .middle import lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
@@ -135,7 +135,7 @@ def compute_skeleton(
     decided = SidesFrom.WRAP if wraps else chosen.sides.source
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
-    joined = join_pieces(net, depth, begun.shape) if by_faces else 0
+    joined, joins = join_pieces(net, depth, begun.shape) if by_faces else (0, no_joins())
     lead_through_middle(net, depth)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_whole(net, names))[0])
@@ -150,7 +150,7 @@ def compute_skeleton(
     curve = _whole(net, names)
     return Skeletonization(
         shape=shape,
-        skeleton=_thinned(net, names, wanted.simplify, depth),
+        skeleton=_thinned(net, names, wanted.simplify, depth, joins),
         curve=curve,
         parts=parts_of(place.of(sample), shape.triangles),
         loops=loops,
@@ -249,15 +249,21 @@ def _whole(net: Net, names: list[int]) -> Skeleton:
     return skeleton_of(net.points, net.radius, branches, singles)
 
 
-def _thinned(net: Net, names: list[int], simplify: float, depth: Depth) -> Skeleton:
-    """Return the branches with fewer points; places and radii deviate by no more than `simplify` times the radius."""
+def _thinned(net: Net, names: list[int], simplify: float, depth: Depth, joins: Longs) -> Skeleton:
+    """Return the branches with fewer points; places and radii deviate by no more than `simplify` times the radius.
+
+    The ends of joins stay.
+    """
     if simplify > 0.0:
         for name in names:
             chain = np.array(net.branches[name])
             points, radius = net.points[chain], net.radius[chain]
             kept = kept_points(np.column_stack((points, radius)), simplify * radius)
+            kept = np.union1d(kept, np.flatnonzero(np.isin(chain, joins)))
             net.branches[name] = chain[kept_inside(points, radius, kept, depth)].tolist()
-    return _whole(net, names)
+    found = _whole(net, names)
+    rows = nearest(net.points[joins.ravel()], found.points).reshape(-1, 2)
+    return replace(found, joins=rows.astype(np.int32))
 
 
 def _shrink(net: Net, shape: Shape, full: Filled) -> None:

@@ -19,14 +19,21 @@ _STEPS = 256  # a way that needs more runs along a face
 _CHUNK = 1 << 20  # distances at once; bounds the memory
 
 
-def join_pieces(net: Net, depth: Depth, shape: Shape) -> int:
-    """Join pieces by straight branches that stay inside, the shortest first; return how many were joined.
+def join_pieces(net: Net, depth: Depth, shape: Shape) -> tuple[int, Longs]:
+    """Join pieces by straight branches that stay inside, the shortest first.
 
     A single point in the ball of another piece stands for nothing of its own: that piece takes over what it owns.
+
+    Returns
+    -------
+    count : int
+        So many pieces were joined, or taken over.
+    joins : (k, 2) int64
+        The points of the net that the new branches join.
     """
     piece = _piece_of_nodes(net)
     if len(set(piece.values())) < 2:
-        return 0
+        return 0, no_joins()
     rows, of_row = _rows(net, piece)
     radius = depth(net.points[rows])
     pairs = _nearest_pairs(net.points[rows], radius, of_row)
@@ -35,14 +42,21 @@ def join_pieces(net: Net, depth: Depth, shape: Shape) -> int:
     inside = _stay_inside(ends, depth, shape)
     order = np.argsort(apart - radius[pairs].sum(axis=1), kind="stable")
     joined = {int(one): int(one) for one in np.unique(of_row)}
-    count = 0
+    count, made = 0, []
     for k in order[inside[order]]:
         first, second = (_top(joined, int(of_row[row])) for row in pairs[k])
         if first != second:
             joined[max(first, second)] = min(first, second)
-            _join(net, int(rows[pairs[k, 0]]), int(rows[pairs[k, 1]]), apart[k], radius[pairs[k]])
+            a, b = (int(row) for row in rows[pairs[k]])
+            if _join(net, a, b, apart[k], radius[pairs[k]]):
+                made.append((a, b))
             count += 1
-    return count
+    return count, np.array(made, np.int64).reshape(-1, 2)
+
+
+def no_joins() -> Longs:
+    """Return an empty table of joins."""
+    return np.empty((0, 2), np.int64)
 
 
 def _stay_inside(ends: Floats, depth: Depth, shape: Shape) -> Flags:
@@ -127,10 +141,11 @@ def _nearest(points: Floats, radius: Floats, rows: Longs, others: Longs) -> tupl
     return least - radius[others], nearest
 
 
-def _join(net: Net, a: int, b: int, apart: float, radius: Floats) -> None:
-    """Add a branch between two points, or let one take over a single point in its ball."""
+def _join(net: Net, a: int, b: int, apart: float, radius: Floats) -> bool:
+    """Add a branch between two points, or let one take over a single point in its ball; return whether one is new."""
     for single, other, room in ((a, b, radius[1]), (b, a, radius[0])):
         if net.at.get(single) == [] and apart < room:
             net.absorb(single, other)
-            return
+            return False
     net.connect(a, b)
+    return True

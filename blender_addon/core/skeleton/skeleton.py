@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,6 +27,8 @@ class Skeleton:
         Rows of `points`, from node to node. A loop starts and ends at the same row.
     nodes : (k,) int32
         Rows of `points`, ascending: all ends of branches, and points without a branch.
+    joins : (j, 2) int32
+        Rows of `points`, nearest to the ends of gaps inside the solid across which pieces were joined.
     """
 
     points: Floats
@@ -34,6 +36,12 @@ class Skeleton:
     branch_offsets: Ints
     branch_points: Ints
     nodes: Ints
+    joins: Ints = field(default_factory=lambda: np.empty((0, 2), np.int32))
+
+    @property
+    def gaps(self) -> Floats:
+        """Return the lengths of the joins, (j,)."""
+        return np.linalg.norm(np.diff(self.points[self.joins], axis=1)[:, 0], axis=1)
 
     @property
     def branches(self) -> list[Ints]:

@@ -75,7 +75,10 @@ def holds_branches(path: str | os.PathLike) -> bool:
 
 
 def _write_swc(content: _Content, stream: BinaryIO) -> None:
-    """Write `id type x y z radius parent`, parents first. SWC has only trees: comments name edges that close loops."""
+    """Write `id type x y z radius parent`, parents first. SWC has only trees: comments name edges that close loops.
+
+    They also name the points between which pieces were joined, with the length of the gap.
+    """
     skeleton = content.skeleton
     parent, order = _tree(skeleton)
     number = np.empty(len(order), np.int64)
@@ -86,6 +89,9 @@ def _write_swc(content: _Content, stream: BinaryIO) -> None:
     for a, b in skeleton.edges.tolist():
         if (min(a, b), max(a, b)) not in in_tree:
             stream.write(b"# closes a loop: %d %d\n" % (number[a], number[b]))
+    for (a, b), length in zip(skeleton.joins.tolist(), skeleton.gaps.tolist(), strict=True):
+        text = f"# joins pieces across a gap: {number[a]} {number[b]} {length:.17g}\n"
+        stream.write(text.encode("ascii"))
     kind = np.where(skeleton.degree > 2, _FORK, np.where(skeleton.degree == 1, _END, _ALONG))
     for row in order.tolist():
         above = number[parent[row]] if parent[row] >= 0 else -1
