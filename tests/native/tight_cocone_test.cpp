@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "delaunay/edges.h"
-#include "delaunay/samples.h"
 #include "delaunay/face_set.h"
+#include "delaunay/samples.h"
 #include "shapes.h"
 
 namespace medial {

@@ -533,7 +533,7 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
     made = medial_axis.compute(points, triangles, sampling="surface", samples=6_000)
     output = crisp_measures.output_of(made, np.eye(3))
     ends = [(s * (a - curvature), 0.0, t * (half - curvature)) for s in (-1, 1) for t in (-1, 1)]
-    assert cKDTree(output.vertices).query(ends)[0].max() < 0.25 * curvature
+    assert cKDTree(output.vertices).query(ends)[0].max() < 0.3 * curvature
     sides = output.vertices[output.face_vertices[output.following()]]
     sides = np.linalg.norm(sides - output.vertices[output.face_vertices], axis=1)
     assert sides.max() < 1.2 * curvature and output.rings().folded().sum() == 0

@@ -73,7 +73,7 @@ def test_severe_warnings_come_first(order):
 def test_a_few_words_stand_for_sentences_that_exist():
     """Each part that is looked for is in a sentence of the sources, and the words fit into a row of the panel."""
     core = Path(verdicts.__file__).parents[1]
-    files = [*core.glob("samples/*.py"), *core.glob("axis/*_warnings.py")]
+    files = [*core.glob("samples/*.py"), *core.glob("shape/*.py"), *core.glob("axis/*_warnings.py")]
     texts = " ".join(path.read_text(encoding="utf-8") for path in files)
     texts = re.sub(r"[\"']\s*f?[\"']", "", texts).lower()  # sentences go over several lines
     parts = verdicts._IN_SHORT

@@ -61,6 +61,7 @@ def at_openings(samples: AnalysedSamples, hierarchy: Any) -> Flags:
     """Return which vertices of the hierarchy, (v,), are balls that touch a sample which closes an opening."""
     found = np.zeros(len(hierarchy.vertices), bool)
     if samples.closing:
+        assert samples.kinds is not None
         closing = samples.kinds == int(native.load().SampleKind.OPENING)
         facets = closing[hierarchy.generators].any(axis=1)
         found[hierarchy.facet_vertices[np.repeat(facets, np.diff(hierarchy.facet_offsets))]] = True

@@ -20,7 +20,6 @@ from ..files.read_shape import read_shape
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings
-from ..shape.shape import Shape
 
 # The words of the command line, and the files of the records; only the one that is used is imported.
 PRODUCTS = {
@@ -76,8 +75,11 @@ class Product:
         """Read a file; return the shape, or whatever the product reads, and warnings."""
         return read_shape(path, limit)
 
-    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any:
-        """Return a result with `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled."""
+    def compute(self, shape: Any, limit: MemoryLimit, progress: Progress | None) -> Any:
+        """Compute from what `read` returns, a Shape for most products.
+
+        The result has `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled.
+        """
         raise NotImplementedError
 
     def check(self, found: Any) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import time
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,40 +12,17 @@ from typing import Any
 import numpy as np
 
 from ..batch.option_words import add_sampling, as_words, sampling_from
-from ..cover.ball_cover import Balls
-from ..errors import Cancelled, InvalidInputError, MedialAxisError, OutOfMemoryError
+from ..errors import InvalidInputError
 from ..files.whole_file import write_whole
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..robot.link_shapes import LinkSettings, cover_link, error_of, volume_of
-from ..robot.robot_file import LinkGeometry, RobotFile, read_robot
+from ..robot.cover_robot import RobotCover, cover_robot
+from ..robot.link_shapes import LinkSettings
+from ..robot.robot_file import RobotFile, read_robot
 from ..settings import BallSettings, CoverMode, CoverShapes
-from ..shape.own_frame import in_own_frame
-from ..shape.shape import Shape
 from .product import Product
 
 _MOST = 64  # shapes of a link where only a tolerance is given
-
-
-@dataclass(frozen=True)
-class LinkCover:
-    """A link and its new shapes; None where it stays as it was, with the reason if that is a problem."""
-
-    link: LinkGeometry
-    balls: Balls | None
-    problem: str = ""
-    seconds: float = 0.0
-
-
-@dataclass(frozen=True)
-class RobotCover:
-    """A robot with new shapes. `chosen` is None, because each link has samples of its own."""
-
-    robot: RobotFile
-    links: tuple[LinkCover, ...]
-    warnings: tuple[str, ...]
-    seconds: float
-    chosen: None = None
 
 
 @dataclass(frozen=True)
@@ -115,40 +90,9 @@ examples:
         return cls(sampling_from(words), LinkSettings(balls, words.tolerance))
 
     def compute(
-        self, robot: RobotFile, limit: MemoryLimit, progress: Progress | None
+        self, shape: RobotFile, limit: MemoryLimit, progress: Progress | None
     ) -> RobotCover:
-        start, progress = time.perf_counter(), progress or Progress()
-        covers = []
-        for row, link in enumerate(robot.links):
-            progress.begin_section(row / len(robot.links), (row + 1) / len(robot.links))
-            covers.append(self._cover(link, limit, progress))
-        warnings = [text for cover in covers for text in self._warnings(cover)]
-        seconds = time.perf_counter() - start
-        return RobotCover(robot, tuple(covers), tuple(warnings), seconds)
-
-    def _cover(self, link: LinkGeometry, limit: MemoryLimit, progress: Progress) -> LinkCover:
-        if link.problem or link.balls_only:
-            return LinkCover(link, None, link.problem)
-        start = time.perf_counter()
-        shape, _ = in_own_frame(Shape(link.points, link.triangles))
-        try:
-            found = cover_link(shape, self.settings, self.wanted, progress, limit)
-        except (Cancelled, OutOfMemoryError):
-            raise
-        except MedialAxisError as error:
-            return LinkCover(link, None, str(error))
-        balls = found.balls.moved(shape.frame[:3, 3])
-        return LinkCover(link, balls, "", time.perf_counter() - start)
-
-    def _warnings(self, cover: LinkCover) -> Iterator[str]:
-        name, most = cover.link.name, self.wanted.tolerance
-        if cover.problem:
-            yield f"the link '{name}' stays as it was: {cover.problem}"
-        elif cover.balls is not None and 0.0 < most < error_of(cover.balls):
-            yield (
-                f"the link '{name}' keeps within {error_of(cover.balls):.4g} only, with "
-                f"{cover.balls.words}; allow more of them"
-            )
+        return cover_robot(shape, self.settings, self.wanted, progress or Progress(), limit)
 
     def check(self, found: RobotCover) -> None:
         """Raise InvalidInputError if no link could be used."""
@@ -169,23 +113,9 @@ examples:
 
     def figures(self, found: RobotCover) -> dict[str, Any]:
         return {
-            "links": [_figures(cover) for cover in found.links],
+            "links": [cover.figures for cover in found.links],
             "links_left": [cover.link.name for cover in found.links if cover.problem],
         }
-
-
-def _figures(cover: LinkCover) -> dict[str, Any]:
-    balls = cover.balls
-    return {
-        "name": cover.link.name,
-        "collisions": cover.link.pieces,
-        "count": 0 if balls is None else balls.count,
-        "shapes": "" if balls is None else "capsules" if len(balls.edges) else "balls",
-        "volume": None if balls is None else volume_of(balls),
-        "farthest": None if balls is None else error_of(balls),
-        "problem": cover.problem,
-        "seconds": round(cover.seconds, 3),
-    }
 
 
 RECORD = Robot

@@ -35,7 +35,7 @@ class ThicknessPage:
         work = self._work
         begun = begin(replace(item, output=self._path), work, True, limit)
         found = result_of(begun, run(begun.task))
-        report = {**report_of(begun, found), "row": len(self._rows) + 1}
+        report: dict[str, Any] = {**report_of(begun, found), "row": len(self._rows) + 1}
         parts = find_thin_parts(found, work.wanted.limit)
         self._rows.append(row_of(item.name, found, parts, work.unit, report["warnings"]))
         return report

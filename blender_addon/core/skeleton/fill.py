@@ -116,7 +116,8 @@ def _lidded(shape: Shape, faces: Ints, place: Longs) -> Shape:
     used, corner = np.unique(place[faces], return_inverse=True)
     corner = corner.reshape(-1, 3)
     points = shape.points[np.unique(place, return_index=True)[1][used]]
-    lids, middles = [], []
+    lids: list[Ints] = []
+    middles: list[Floats] = []
     for loop in _openings(corner):
         apex = np.full(len(loop), len(points) + len(middles))
         lids.append(np.column_stack((np.roll(loop, -1), loop, apex)))

@@ -2,8 +2,8 @@
 // The boundary of the inner cells is a subcomplex of the Delaunay triangulation.
 #pragma once
 
-#include "inside/sides.h"
 #include "delaunay/face_set.h"
+#include "inside/sides.h"
 
 namespace medial {
 

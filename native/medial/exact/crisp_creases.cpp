@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "exact/crease_reach.h"
 #include "exact/crisp_parts.h"
 
 namespace medial {
-namespace {
-
-// Lengths are in holes between the samples.
-constexpr double kNearCrease = 8;      // the largest ball of a rim that ends in a crease
-constexpr double kNearAccident = 3.5;  // the same of one that may be no crease
-constexpr double kNearCorner = 2.5;    // from the end of a rim to a corner of the solid
-constexpr double kSameCrease = 0.85;   // the cosine between creases of one direction
-
-}  // namespace
 
 CreaseRims::CreaseRims(CrispState& state) : c_(state) {
   std::vector<Vec3> corners;
@@ -24,16 +16,17 @@ CreaseRims::CreaseRims(CrispState& state) : c_(state) {
 
 bool CreaseRims::onto_crease(int32_t v) {
   const double spacing = c_.spacing_at(v);
-  if (!(c_.complex.radius[v] < kNearCrease * spacing)) return false;
+  if (!(c_.complex.radius[v] < kCreaseBall * spacing)) return false;
   std::optional<PlaceOnCrease> nearest;
   bool at_corner = false, ends = false;
   for (const int32_t f : c_.facets_at[v]) {
     const auto found = c_.samples.crease_between(c_.complex.generators[f], c_.complex.position[v]);
-    if (!found || distance(found->point, c_.complex.position[v]) > reach_of(*found) * spacing) {
+    if (!found || distance(found->point, c_.complex.position[v]) >
+                      crease_reach(c_.samples, *found) * spacing) {
       continue;
     }
     ends = ends || ends_at(f, v);
-    if (nearest && !same_direction(*nearest, *found)) at_corner = true;
+    if (nearest && !same_direction(c_.samples, *nearest, *found)) at_corner = true;
     if (!nearest || distance(found->point, c_.complex.position[v]) <
                         distance(nearest->point, c_.complex.position[v])) {
       nearest = found;
@@ -43,7 +36,7 @@ bool CreaseRims::onto_crease(int32_t v) {
   c_.made.position[v] = nearest->point;
   c_.made.radius[v] = 0;
   c_.made.place[v] = Placing::crease;
-  if (at_corner) onto_corner(v, kNearCrease * spacing);
+  if (at_corner) onto_corner(v, kCreaseBall * spacing);
   return true;
 }
 
@@ -58,30 +51,12 @@ bool CreaseRims::ends_at(int32_t facet, int32_t v) const {
   return false;
 }
 
-// Sharp edges that divide nothing are often accidents of a coarse mesh, and a zigzag only stands
-// for a line, which is elsewhere.
-double CreaseRims::reach_of(const PlaceOnCrease& place) const {
-  const ConvexCreases& creases = c_.samples.creases();
-  if (creases.is_fragment(place.edge) || creases.is_jagged(place.edge)) return 0;
-  return creases.divides(place.edge) ? kNearCrease : kNearAccident;
-}
-
 void CreaseRims::onto_corner(int32_t v, double within) {
   if (corner_points_.empty()) return;
   const Neighbour nearest = corners_.nearest(c_.complex.position[v]);
   if (nearest.distance > within) return;
   c_.made.position[v] = corner_points_[nearest.id];
   c_.made.place[v] = Placing::corner;
-}
-
-bool CreaseRims::same_direction(const PlaceOnCrease& a, const PlaceOnCrease& b) const {
-  if (a.edge == b.edge) return true;
-  return std::abs(dot(direction(a.edge), direction(b.edge))) > kSameCrease;
-}
-Vec3 CreaseRims::direction(int32_t edge) const {
-  const auto& mesh = c_.samples.faces().mesh();
-  const auto& [a, b] = c_.samples.faces().creases().edges[edge].ends;
-  return normalized(mesh.points[b] - mesh.points[a]);
 }
 
 void CreaseRims::reach_corners() {
@@ -103,7 +78,7 @@ void CreaseRims::reach_corners() {
     if (reached[c]) continue;
     const Neighbour nearest = tree.nearest(corner_points_[c]);
     const int32_t v = on_crease[nearest.id];
-    if (nearest.distance > kNearCorner * c_.spacing_at(v)) continue;
+    if (nearest.distance > kCornerReach * c_.spacing_at(v)) continue;
     c_.made.position[v] = corner_points_[c];
     c_.made.place[v] = Placing::corner;
   }

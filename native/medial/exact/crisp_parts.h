@@ -75,10 +75,7 @@ class CreaseRims {
  private:
   // Returns whether a facet has an edge without another facet at a vertex.
   bool ends_at(int32_t facet, int32_t v) const;
-  double reach_of(const PlaceOnCrease& place) const;
   void onto_corner(int32_t v, double within);
-  bool same_direction(const PlaceOnCrease& a, const PlaceOnCrease& b) const;
-  Vec3 direction(int32_t edge) const;
 
   CrispState& c_;
   PointTree corners_;

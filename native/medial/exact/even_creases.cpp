@@ -2,15 +2,10 @@
 #include "exact/even_creases.h"
 
 #include "base/parallel.h"
+#include "exact/crease_reach.h"
 
 namespace medial {
 namespace {
-
-// Lengths are in holes between the samples.
-constexpr double kCreaseBall = 8;       // the largest ball of a rim that ends in a crease
-constexpr double kAccidentBall = 3.5;   // the same of one that may be no crease
-constexpr double kCornerReach = 2.5;    // from the end of a rim to a corner of the solid
-constexpr double kOneDirection = 0.85;  // the cosine between creases of one direction
 
 // Where a vertex of a rim goes.
 struct OnCrease {
@@ -49,34 +44,20 @@ class CreaseHolder {
     bool ends = false;
     e_.mesh.for_triangles(v, [&](int32_t t) {
       const auto found = samples_.crease_between(generators_[e_.source[t]], e_.position[v]);
-      if (!found || !(distance(found->point, e_.position[v]) < reach_of(*found) * hole_[v])) return;
+      if (!found ||
+          !(distance(found->point, e_.position[v]) < crease_reach(samples_, *found) * hole_[v]))
+        return;
       for (const int32_t other : link_of(e_.mesh.triangle(t), v)) {
         ends = ends || e_.mesh.uses(v, other) == 1;
       }
-      best.at_corner = best.at_corner || (best.place.edge >= 0 && !same_line(best.place, *found));
+      best.at_corner =
+          best.at_corner || (best.place.edge >= 0 && !same_direction(samples_, best.place, *found));
       if (best.place.edge < 0 ||
           distance(found->point, e_.position[v]) < distance(best.place.point, e_.position[v])) {
         best.place = *found;
       }
     });
     return ends ? best : OnCrease{};
-  }
-
-  // Sharp edges that divide nothing are often accidents of a coarse mesh, and a zigzag only stands
-  // for a line, which is elsewhere.
-  double reach_of(const PlaceOnCrease& place) const {
-    const ConvexCreases& creases = samples_.creases();
-    if (creases.is_fragment(place.edge) || creases.is_jagged(place.edge)) return 0;
-    return creases.divides(place.edge) ? kCreaseBall : kAccidentBall;
-  }
-
-  bool same_line(const PlaceOnCrease& a, const PlaceOnCrease& b) const {
-    return a.edge == b.edge || std::abs(dot(direction(a.edge), direction(b.edge))) > kOneDirection;
-  }
-  Vec3 direction(int32_t edge) const {
-    const auto& mesh = samples_.faces().mesh();
-    const auto& [a, b] = samples_.faces().creases().edges[edge].ends;
-    return normalized(mesh.points[b] - mesh.points[a]);
   }
 
   void find_corners(const Run& run) {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "base/cgal.h"
+#include "base/insertion_order.h"
 #include "base/polygon_edges.h"
 #include "base/text.h"
-#include "base/insertion_order.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

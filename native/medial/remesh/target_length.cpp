@@ -79,7 +79,7 @@ struct Turns {
 // Returns the sine of the angle by which a sheet turns at the edge of two triangles, positive if it
 // turns towards the normal of the first one.
 double turn_at(const EvenMesh& even, const Edge& edge, int32_t one, int32_t other) {
-  const auto& [a, b] = edge;
+  const int32_t a = edge[0], b = edge[1];
   const auto goes_forth = [&](int32_t t) {
     const Triangle& corners = even.mesh.triangle(t);
     return corners[(corner_of(corners, a) + 1) % 3] == b;
