@@ -111,6 +111,8 @@ def _faces(result, depsgraph):
 
 def _reduced(whole, vertices, progress):
     start = time.perf_counter()
+    progress.begin_share(0.5)
     axis = reduce_axis(whole.axis, vertices, progress)
-    away = None if whole.shape is None else reduced_difference(axis, whole.shape)
+    progress.begin_share(1.0)
+    away = None if whole.shape is None else reduced_difference(axis, whole.shape, progress)
     return _Reduced(axis, away, time.perf_counter() - start)

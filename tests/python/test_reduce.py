@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.facet_triangles import triangulate_facets
 from medial_axis.core.axis.medial_axis import MedialAxis
-from medial_axis.core.errors import InvalidInputError, ReadError
+from medial_axis.core.errors import Cancelled, InvalidInputError, ReadError
 from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis
+from medial_axis.core.machine.progress import Progress
 from medial_axis.core.rebuild.reduce import reduce_axis, reduced_difference
 from medial_axis.core.shape.shape import Shape
 from support import meshes
@@ -213,6 +214,14 @@ def computed():
 
     shape = ellipsoid()
     return shape, medial_axis.compute(shape.points, shape.triangles)
+
+
+def test_measuring_ends_when_it_is_cancelled(computed):
+    shape, found = computed
+    small, progress = reduce_axis(found.axis, 20), Progress()
+    progress.cancel()
+    with pytest.raises(Cancelled):
+        reduced_difference(small, shape, progress)
 
 
 @pytest.mark.slow

@@ -174,7 +174,9 @@ def _edges(axis: MedialAxis) -> Ints:
     return np.ascontiguousarray(axis.edges, np.int32).reshape(-1, 2)
 
 
-def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
+def reduced_difference(
+    axis: MedialAxis, shape: Shape, progress: Progress | None = None
+) -> PointDifference:
     """Measure the distance between a surface and the solid of a reduced axis, its balls, cones and slabs.
 
     It is measured in both directions between points of both surfaces; those on the solid are a 400th of the diagonal
@@ -185,12 +187,13 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
     axis : MedialAxis
     shape : Shape
         In the same coordinates.
+    progress : Progress, optional
 
     Raises
     ------
     InvalidInputError
         The shape has no faces.
-    NativeModuleError, OutOfMemoryError
+    NativeModuleError, OutOfMemoryError, Cancelled
     """
     mesh = sphere_mesh(axis)
     used = shape.points[np.unique(shape.triangles)] if len(shape.triangles) else shape.points
@@ -198,11 +201,13 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
 
     def signed(queries: Floats) -> Floats:
         with own_errors() as module:
-            return np.asarray(module.solid_distances(queries, *mesh.arrays))
+            part = progress and progress.part(0.5)
+            return np.asarray(module.solid_distances(queries, *mesh.arrays, progress=part))
 
     with own_errors() as module:
-        points = np.asarray(module.solid_surface(*mesh.arrays, _SPACING * diagonal))
-    return difference_of_points(shape, points, signed)
+        part = progress and progress.part(0.5)
+        points = module.solid_surface(*mesh.arrays, _SPACING * diagonal, progress=part)
+    return difference_of_points(shape, np.asarray(points), signed, progress)
 
 
 def _as_axis(

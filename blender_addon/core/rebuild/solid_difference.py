@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
+from ..machine.progress import Progress
 from ..shape.shape import Shape
 from ..small_matrices import length_of
 
@@ -76,7 +77,10 @@ def solid_difference(first: Shape, second: Shape) -> SolidDifference:
 
 
 def difference_of_points(
-    shape: Shape, points: Floats, signed: Callable[[Floats], Floats]
+    shape: Shape,
+    points: Floats,
+    signed: Callable[[Floats], Floats],
+    progress: Progress | None = None,
 ) -> PointDifference:
     """Compare a surface with a solid that is given by points on its surface and signed distances.
 
@@ -88,12 +92,13 @@ def difference_of_points(
         Points all over the surface of the solid.
     signed : callable
         Maps (q, 3) queries to (q,) distances from the solid, which are negative inside and may be too small there.
+    progress : Progress, optional
 
     Raises
     ------
     InvalidInputError
         The surface has no faces.
-    NativeModuleError, OutOfMemoryError
+    NativeModuleError, OutOfMemoryError, Cancelled
     """
     if not len(shape.triangles):
         raise InvalidInputError("Expected a surface with faces, found one without")
@@ -103,7 +108,10 @@ def difference_of_points(
     inside = there < 0
     with own_errors() as module:
         nearest = np.asarray(module.nearest(points, queries[inside]))
-        back = np.asarray(module.surface_distances(points, shape.points, shape.triangles))
+        part = progress and progress.part()
+        back = np.asarray(
+            module.surface_distances(points, shape.points, shape.triangles, progress=part)
+        )
     there[inside] = np.linalg.norm(points[nearest] - queries[inside], axis=1)
     diagonal = length_of(np.ptp(used, axis=0))
     return PointDifference(
