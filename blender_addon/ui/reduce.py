@@ -12,6 +12,7 @@ from ..bridge.objects.output_object import is_gone, source_of
 from ..bridge.objects.read_object import read_object
 from ..bridge.rebuilt_object import in_frame_of, unrebuilt
 from ..core.axis.medial_axis import MedialAxis
+from ..core.machine.progress import Progress
 from ..core.rebuild.reduce import reduce_axis, reduced_difference
 from ..core.rebuild.solid_difference import PointDifference
 from ..core.shape.shape import Shape
@@ -111,6 +112,7 @@ def _faces(result, depsgraph):
 
 def _reduced(whole, vertices, progress):
     start = time.perf_counter()
+    progress = progress or Progress()
     progress.begin_share(0.5)
     axis = reduce_axis(whole.axis, vertices, progress)
     progress.begin_share(1.0)
