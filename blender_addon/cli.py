@@ -26,10 +26,9 @@ from .console import ClosedPipeError, Console, open_streams
 from .core.batch.batch import Item, begin, failure, finish
 from .core.errors import Cancelled, DegenerateInputError, InvalidInputError, ReadError
 from .core.machine import native
-from .core.products.thickness_page import ThicknessPage
-from .core.thickness.measurement import UNKNOWN
+from .core.products.product import CANCELLED, DONE, FAILED, INPUT, THIN, UNMEASURED, USAGE
 
-DONE, FAILED, USAGE, INPUT, CANCELLED, THIN, UNMEASURED = range(7)
+_GRAVEST_FIRST = (FAILED, INPUT, THIN, UNMEASURED, DONE)
 CLOSED_PIPE = 128 + 13  # the exit code by which shells report that SIGPIPE ended a program
 
 
@@ -69,35 +68,29 @@ def run() -> None:
 
 def _run(found: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
-    code, thin, unknown, files = DONE, False, False, files_of(wanted, wanted.inputs)
-    page = None if wanted.page is None else ThicknessPage(wanted.page, wanted.work)
+    codes, files = {DONE}, files_of(wanted, wanted.inputs)
+    page = None if wanted.page is None else wanted.work.page(wanted.page)
     for item in divided(found, wanted):
         try:
             if page is None:
                 files.claim(item.output)
             report = _done(item, wanted, page, console)
-            thin |= bool(report.get("patches"))
-            unknown |= report.get("share_unmeasured", 0.0) > UNKNOWN
-            code = INPUT if report.get("links_left") and code == DONE else code
+            codes.add(wanted.work.exit_code(report))
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED
         except Exception as error:
             report = (page.failed if page else failure)(item, error)
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
-            code = INPUT if of_input and code in (DONE, INPUT) else FAILED
+            codes.add(INPUT if of_input else FAILED)
         console.tell(report)
     if page is not None:
         console.tell(report := page.written())
-        code = FAILED if report["status"] == "failed" else code
-    if code != DONE:
-        return code
-    return THIN if thin else UNMEASURED if unknown else DONE
+        codes |= {FAILED} if report["status"] == "failed" else set()
+    return next(code for code in _GRAVEST_FIRST if code in codes)
 
 
-def _done(
-    item: Item, wanted: argparse.Namespace, page: ThicknessPage | None, console: Console
-) -> dict[str, Any]:
+def _done(item: Item, wanted: argparse.Namespace, page: Any, console: Console) -> dict[str, Any]:
     """The report of an item, which is computed unless it is finished."""
     if page is not None:
         return page.measured(item, wanted.limit, lambda task: watch(task, console.show))

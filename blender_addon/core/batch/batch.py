@@ -39,7 +39,9 @@ class Work(Protocol):
     The result of `compute` has `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled.
     """
 
-    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any: ...
+    def compute(self, shape: Any, limit: MemoryLimit, progress: Progress | None) -> Any:
+        """Compute from what was read, a Shape for most kinds."""
+
     def check(self, found: Any) -> None:
         """Raise MedialAxisError if there is nothing to write."""
 

@@ -13,13 +13,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar
 
-import numpy as np
-
+from ..batch.batch import Work
 from ..batch.option_words import add_options, add_sampling, as_words, sampling_from, settings_from
 from ..files.read_shape import read_shape
 from ..machine.memory_limit import MemoryLimit
-from ..machine.progress import Progress
 from ..settings import Settings
+
+DONE, FAILED, USAGE, INPUT, CANCELLED, THIN, UNMEASURED = range(7)  # exit codes
 
 # The words of the command line, and the files of the records; only the one that is used is imported.
 PRODUCTS = {
@@ -35,7 +35,7 @@ PRODUCTS = {
 
 
 @dataclass(frozen=True)
-class Product:
+class Product(Work):
     """A kind of result with its settings; the `repr` has all settings that an output depends on.
 
     Parameters
@@ -75,19 +75,8 @@ class Product:
         """Read a file; return the shape, or whatever the product reads, and warnings."""
         return read_shape(path, limit)
 
-    def compute(self, shape: Any, limit: MemoryLimit, progress: Progress | None) -> Any:
-        """Compute from what `read` returns, a Shape for most products.
-
-        The result has `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled.
-        """
-        raise NotImplementedError
-
     def check(self, found: Any) -> None:
-        """Raise MedialAxisError if there is nothing to write; most products fail before that."""
-
-    def write(self, found: Any, path: Path, frame: np.ndarray) -> tuple[str, ...]:
-        """Write the file, and return warnings about the parts that it does not hold."""
-        raise NotImplementedError
+        """Accept every result: most products fail before there is nothing to write."""
 
     def beside(self, _output: Path) -> tuple[Path, ...]:
         """Return the files that are written next to an output, besides its report."""
@@ -98,9 +87,9 @@ class Product:
         own = {} if self.wanted is None else as_words(self.wanted)
         return {**as_words(self.settings), **own}
 
-    def figures(self, found: Any) -> dict[str, Any]:
-        """Return the figures of a result, for the report."""
-        raise NotImplementedError
+    def exit_code(self, _report: dict[str, Any]) -> int:
+        """Return what the report of a finished output means for the whole run."""
+        return DONE
 
 
 def product(word: str) -> type[Product]:

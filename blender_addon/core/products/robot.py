@@ -20,7 +20,7 @@ from ..robot.cover_robot import RobotCover, cover_robot
 from ..robot.link_shapes import LinkSettings
 from ..robot.robot_file import RobotFile, read_robot
 from ..settings import BallSettings, CoverMode, CoverShapes
-from .product import Product
+from .product import DONE, INPUT, Product
 
 _MOST = 64  # shapes of a link where only a tolerance is given
 
@@ -116,6 +116,9 @@ examples:
             "links": [cover.figures for cover in found.links],
             "links_left": [cover.link.name for cover in found.links if cover.problem],
         }
+
+    def exit_code(self, report: dict[str, Any]) -> int:
+        return INPUT if report["links_left"] else DONE
 
 
 RECORD = Robot

@@ -18,7 +18,7 @@ from ..machine.progress import Progress
 from ..settings import ThickenSettings
 from ..shape.shape import Shape
 from ..thickness.thicken import Thickened, thicken
-from .product import Product
+from .product import DONE, THIN, Product
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,9 @@ examples:
             "share_below": found.left.share,
             "patches": len(found.left.patches),
         }
+
+    def exit_code(self, report: dict[str, Any]) -> int:
+        return THIN if report["patches"] else DONE
 
 
 RECORD = ThickerWalls

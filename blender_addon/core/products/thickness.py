@@ -15,11 +15,12 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, ThicknessSettings
 from ..shape.shape import Shape
-from ..thickness.measurement import Measurement
+from ..thickness.measurement import UNKNOWN, Measurement
 from ..thickness.thickness import measure_thickness
 from ..thickness.thin_parts import find_thin_parts
 from ..thickness.write_thickness import THICKNESS_FORMATS, export_thickness, summary_of
-from .product import Product
+from .product import DONE, THIN, UNMEASURED, Product
+from .thickness_page import ThicknessPage
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,15 @@ examples:
         summary = summary_of(found, find_thin_parts(found, self.wanted.limit), self.unit)
         del summary["warnings"]  # every report has them
         return summary
+
+    def exit_code(self, report: dict[str, Any]) -> int:
+        if report["patches"]:
+            return THIN
+        return UNMEASURED if report["share_unmeasured"] > UNKNOWN else DONE
+
+    def page(self, path: str) -> ThicknessPage:
+        """Return a page for all outputs of a run."""
+        return ThicknessPage(path, self, self.unit)
 
 
 RECORD = Thickness

@@ -13,14 +13,14 @@ from ..machine.job import Outcome, Task
 from ..machine.memory_limit import MemoryLimit
 from ..thickness.parts_page import PartRow, export_page, row_of, row_without, verdict_of
 from ..thickness.thin_parts import find_thin_parts
-from .thickness import Thickness
+from .product import Product
 
 
 class ThicknessPage:
     """One page for all items of a batch; it is made anew each time, because it needs every measurement."""
 
-    def __init__(self, path: str, work: Thickness) -> None:
-        self._path, self._work = Path(path), work
+    def __init__(self, path: str, work: Product, unit: str) -> None:
+        self._path, self._work, self._unit = Path(path), work, unit
         self._rows: list[PartRow] = []
 
     def measured(
@@ -37,7 +37,7 @@ class ThicknessPage:
         found = result_of(begun, run(begun.task))
         report: dict[str, Any] = {**report_of(begun, found), "row": len(self._rows) + 1}
         parts = find_thin_parts(found, work.wanted.limit)
-        self._rows.append(row_of(item.name, found, parts, work.unit, report["warnings"]))
+        self._rows.append(row_of(item.name, found, parts, self._unit, report["warnings"]))
         return report
 
     def failed(self, item: Item, error: BaseException) -> dict[str, Any]:
@@ -49,7 +49,7 @@ class ThicknessPage:
     def written(self) -> dict[str, Any]:
         """Write the page, and return its report, or that of the reason why it could not be written."""
         wanted = self._work.wanted
-        verdict = verdict_of(self._rows, wanted.limit, self._work.unit, wanted.between)
+        verdict = verdict_of(self._rows, wanted.limit, self._unit, wanted.between)
         place = {"input": str(self._path), "object": None, "frame": None, "output": str(self._path)}
         try:
             make_folder(self._path)
