@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact/empty_ball.h"
 
+#include "walls/followed_ball.h"
+
 namespace medial {
 namespace {
 
@@ -108,6 +110,25 @@ class BallFinder {
 Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
                  const Vec3& start, size_t most, bool swaps) {
   return BallFinder(samples, near).find(walls, start, most, swaps);
+}
+
+Touch smooth_ball(const SamplesOnFaces& samples, const NearPlace& near, Walls walls) {
+  const auto ball = followed_ball(samples.faces(), walls.all(), near.place);
+  if (!ball || !(ball->unequal <= kExact * near.hole)) return {};
+  if (!(distance(ball->centre, near.place) <= kFarthestMove * near.hole)) return {};
+  return {ball->centre, ball->radius, walls, ball->away};
+}
+
+bool is_empty_between(const SamplesOnFaces& samples, const Touch& ball, double hole) {
+  const Vec3 outward = -normalized(ball.away[0] + ball.away[1]);
+  const Vec3 middle = ball.position + ball.radius * outward;
+  const Foot there = samples.faces().descend(ball.walls.triangle[0], middle);
+  const Foot nearest = samples.faces().descend(there.triangle, ball.position);
+  return nearest.distance > ball.radius - kExact * hole;
+}
+
+bool is_empty(const SamplesOnFaces& samples, const Touch& ball, double hole) {
+  return !samples.faces().nearer(ball.position, ball.radius - kExact * hole);
 }
 
 Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,

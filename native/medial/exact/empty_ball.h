@@ -34,7 +34,7 @@ inline double openness(const std::array<Vec3, kMostContacts>& away) {
 }
 
 // Directions to feet that differ by less are those to one foot.
-inline constexpr double kSameFoot = 0.08;
+inline constexpr double kSameFoot = kSameDirection;
 
 // A place, and the largest hole between the samples there, in which lengths are measured.
 struct NearPlace {
@@ -47,6 +47,15 @@ struct NearPlace {
 // it takes the place of the one that is seen nearest to it, if `swaps`.
 Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
                  const Vec3& start, size_t most = kMostContacts, bool swaps = false);
+// Finds the ball between two curved walls, without a search of all faces: the ball of a place in a
+// Voronoi facet is empty of samples, so a third wall can be in it by no more than what a curved
+// face rises between samples. Nothing is found where a wall ends.
+Touch smooth_ball(const SamplesOnFaces& samples, const NearPlace& near, Walls walls);
+// Returns whether the faces between the two feet of a ball are outside of it, as they are not
+// beyond the end of a smooth sheet.
+bool is_empty_between(const SamplesOnFaces& samples, const Touch& ball, double hole);
+// Returns whether all faces are outside of a ball.
+bool is_empty(const SamplesOnFaces& samples, const Touch& ball, double hole);
 // Finds a ball that touches some walls, although others are as near but for what smooth faces are
 // off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
 // the nearest face. The place is nearer than a distance to the given one.

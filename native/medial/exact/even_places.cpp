@@ -14,8 +14,8 @@ constexpr double kAtEnd = 0.1;          // of the target length: a rim that move
 constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
 constexpr double kPlate = 0.9;          // the openness of a plate with nearly parallel sides
 constexpr double kRimSlope = 0.2;       // of the steps along a rim
-constexpr double kRough = 0.1;          // mean deviation of steps, in target lengths
-constexpr int kMeans = 3, kMeansOfRoughness = 16;
+constexpr double kRough = 0.05;         // mean deviation of steps, in target lengths
+constexpr int kMeans = 6, kMeansOfRoughness = 16;
 constexpr int kAlongRounds = 12;     // in which a step learns of those along the rim
 constexpr int kHalvingsToLast = 10;  // of the way to the last ball that touches two places
 
@@ -108,7 +108,44 @@ Touch EvenPlaces::ball_at(int32_t v) const {
   return end.radius > 0 ? end : ball;
 }
 
+// Returns the walls of the nearest sample on each side of a sheet; none where sheets meet.
+Walls EvenPlaces::nearest_walls(int32_t v) const {
+  if (e_.mesh.stratum(v) != Stratum::sheet && !is_rim(v)) return {};
+  const Vec3 across = normal_at(e_, v);
+  std::array<int32_t, 2> wall{-1, -1};
+  std::array<double, 2> least{HUGE_VAL, HUGE_VAL};
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    for (const int32_t s : generators_[e_.source[t]]) {
+      const Vec3 off = e_.position[v] - samples_.point(s);
+      const int side = dot(off, across) > 0;
+      if (!(squared_length(off) < least[side])) continue;
+      least[side] = squared_length(off);
+      wall[side] = samples_.triangle(s);
+    }
+  });
+  Walls walls;
+  for (const int32_t triangle : wall) {
+    if (triangle >= 0) walls.add(triangle);
+  }
+  return walls;
+}
+
+// Returns the ball between two smooth walls, without a radius where a rim is beyond the end of its
+// sheet; nothing where the walls are not smooth.
+std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
+                                                const Walls& walls) const {
+  const double hole = hole_at(v);
+  const Touch ball = smooth_ball(samples_, {start, hole}, walls);
+  if (!(ball.radius > 0)) return {};
+  const bool is_inside = e_.mesh.stratum(v) == Stratum::sheet;
+  return is_inside || is_empty_between(samples_, ball, hole) ? ball : Touch{};
+}
+
 Touch EvenPlaces::ball_of_walls(int32_t v) const {
+  const auto smooth = smooth_ball_at(v, e_.position[v], nearest_walls(v));
+  const bool is_found = smooth && smooth->radius > 0;
+  if (is_found && !(finishes_ && is_rim(v))) return *smooth;
+  if (is_found && is_empty(samples_, *smooth, hole_at(v))) return *smooth;
   const Walls walls = walls_of(v);
   if (walls.count < 2) return {};
   const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
@@ -126,6 +163,11 @@ void EvenPlaces::place() {
     if (e_.mesh.has_triangles(v)) all.push_back(v);
   }
   place(all);
+}
+
+void EvenPlaces::finish() {
+  finishes_ = true;
+  place();
 }
 
 void EvenPlaces::place_rims() {
@@ -189,10 +231,11 @@ std::vector<int32_t> EvenPlaces::open_rims() const {
 }
 
 bool EvenPlaces::is_open_rim(int32_t v) const {
-  if (!e_.mesh.has_triangles(v) || e_.mesh.stratum(v) != Stratum::curve || e_.held[v] != kFree) {
-    return false;
-  }
-  return e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) == 1;
+  return e_.mesh.has_triangles(v) && e_.held[v] == kFree && is_rim(v);
+}
+
+bool EvenPlaces::is_rim(int32_t v) const {
+  return e_.mesh.stratum(v) == Stratum::curve && e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) == 1;
 }
 
 SmoothRim EvenPlaces::way_out(int32_t v) const {
@@ -214,6 +257,7 @@ SmoothRim EvenPlaces::before_third_wall(int32_t v) const {
 bool EvenPlaces::has_parallel_walls(int32_t v) const { return openness(found_[v].away) > kPlate; }
 
 Touch EvenPlaces::ball_between(int32_t v, const Vec3& start) const {
+  if (const auto smooth = smooth_ball_at(v, start, found_[v].walls)) return *smooth;
   return empty_ball(samples_, {start, hole_at(v)}, found_[v].walls, start, 2);
 }
 
@@ -251,7 +295,7 @@ double EvenPlaces::step_of(int32_t v, const SmoothRim& way) const {
   if (placing_[v] == Placing::refused) return -way.reach;
   if (way.at_wall) return way.reach;
   const double open = openness(found_[v].away);
-  return open > kRimOpenness ? way.reach * (1 - kRimOpenness / open) : 0;
+  return way.reach * (1 - kRimOpenness / open);
 }
 
 // Returns means along rims, of a vertex and those beside it; what is not known is NaN, and takes on

@@ -19,6 +19,9 @@ class EvenPlaces {
   void start_from(std::span<const Placing> placing, std::span<const double> radius);
   // Places all vertices of triangles. What turns a triangle over is refused.
   void place();
+  // Does the same for the last time: balls of rims, where a third wall may be near, are compared
+  // with all faces.
+  void finish();
   // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and
   // what is beside them must be placed.
   bool slide();
@@ -30,6 +33,8 @@ class EvenPlaces {
   // (v) of the ball that touches the faces, where the placing is `touching` or more
   const std::vector<double>& radius() const { return radius_; }
 
+  bool last_round = false;
+
  private:
   void place(std::span<const int32_t> vertices);
   void join_neighbour(int32_t v);
@@ -40,7 +45,10 @@ class EvenPlaces {
   Walls walls_of(int32_t v) const;
   Touch ball_at(int32_t v) const;
   Touch ball_of_walls(int32_t v) const;
+  Walls nearest_walls(int32_t v) const;
+  std::optional<Touch> smooth_ball_at(int32_t v, const Vec3& start, const Walls& walls) const;
   bool is_open_rim(int32_t v) const;
+  bool is_rim(int32_t v) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   SmoothRim before_third_wall(int32_t v) const;
@@ -61,6 +69,7 @@ class EvenPlaces {
   std::vector<Placing> placing_;
   std::vector<double> radius_;
   std::vector<Touch> found_;
+  bool finishes_ = false;
 };
 
 }  // namespace medial

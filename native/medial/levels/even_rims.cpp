@@ -96,7 +96,7 @@ void smooth_new_rims(Level& level, const Hierarchy::Parts& h, const Alive& alive
   for (const int32_t f : level.facet_of) generators.push_back(h.complex.generators[f]);
   EvenPlaces places(even, *faces, generators, level.wires, run);
   places.start_from(level.place, level.radius);
-  places.place();
+  places.finish();
   write_even(even, places.placing(), places.radius(), h, level, run);
 }
 

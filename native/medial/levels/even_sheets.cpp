@@ -15,8 +15,8 @@ namespace {
 
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
-constexpr double kEdge = 2.8;  // the wanted length of an edge: 1.7 times the distance of samples
-constexpr double kLeastEdge = 1.3;  // in narrow sheets, where there is nothing to gain below
+constexpr double kEdge = 2.85;  // the wanted length of an edge: 1.7 times the distance of samples
+constexpr double kLeastEdge = 1.45;  // in narrow sheets, where there is nothing to gain below
 // where a sheet is curved: half the distance of samples, below which they know no curvature
 constexpr double kLeastOfCurved = 0.8;
 constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart
@@ -149,7 +149,7 @@ class EvenSheets {
       one_round(even, options, 0.6 + 0.3 * i / kSlides);
       places.place_rims();
     }
-    places.place();
+    places.finish();
   }
 
   // The chord of a curved line misses it by an eighth of its curvature times the squared length.

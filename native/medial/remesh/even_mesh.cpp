@@ -37,52 +37,72 @@ Places places_of(const EvenMesh& even, const Triangle& t) {
 // The triangles at a vertex, as they would be if it moved.
 class MovedStar {
  public:
-  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place) : e_(even) {
+  // Triangles at the edge to `without` vanish, and keep no side.
+  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, int32_t without = -1) : e_(even) {
+    star_.reserve(kUsualStar);
     e_.mesh.for_triangles(v, [&](int32_t t) {
+      if (!keeps_sides_) return;
       const Triangle& corners = e_.mesh.triangle(t);
       const int at = corner_of(corners, v);
+      const int32_t next = corners[(at + 1) % 3], last = corners[(at + 2) % 3];
       Places places = places_of(e_, corners);
       places[at] = place;
       const Plane plane = plane_of(places);
-      const Vec3 normal = plane.height < kNeedle ? e_.normal[t] : plane.normal;
-      star_.push_back({t, corners[(at + 1) % 3], corners[(at + 2) % 3], normal});
+      keeps_sides_ = next == without || last == without || keeps_side(t, plane);
+      star_.push_back({t, next, last, plane.height < kNeedle ? e_.normal[t] : plane.normal});
     });
   }
 
-  // Returns whether a sheet would fold at an edge of the triangles at which it does not yet.
-  bool folds() const {
-    return std::any_of(star_.begin(), star_.end(), [&](const Moved& one) {
-      return folds_across(one) || folds_at(one, one.next) || folds_at(one, one.last);
-    });
+  // Returns whether all triangles would keep their side, and no sheet would fold at an edge of them
+  // at which it does not yet.
+  bool is_sound() const {
+    if (!keeps_sides_) return false;
+    for (size_t i = 0; i < star_.size(); ++i) {
+      if (folds_across(star_[i])) return false;
+      for (size_t j = i + 1; j < star_.size(); ++j) {
+        if (folds_between(star_[i], star_[j])) return false;
+      }
+    }
+    return true;
   }
 
  private:
+  static constexpr size_t kUsualStar = 12;  // triangles that are stored at once
   struct Moved {
     int32_t triangle, next, last;  // its corners after the vertex
     Vec3 normal;
   };
 
+  bool keeps_side(int32_t t, const Plane& after) const {
+    const double turn = dot(after.normal, e_.normal[t]);
+    if (after.height >= kNeedle) return turn > kMostTurn;
+    const double before = plane_of(places_of(e_, e_.mesh.triangle(t))).height;
+    return before < kNeedle && after.height >= before && turn >= 0;
+  }
+
   // At the edge that is not at the vertex.
   bool folds_across(const Moved& one) const {
-    const auto& two = e_.mesh.triangles_at(one.next, one.last);
-    if (two.size() != 2) return false;
-    const int32_t other = two[0] == one.triangle ? two[1] : two[0];
+    const int32_t other = e_.mesh.across(one.triangle, one.next, one.last);
+    if (other < 0) return false;
     const Triangle& corners = e_.mesh.triangle(other);
     const bool alike = corners[(corner_of(corners, one.next) + 1) % 3] != one.last;
     return folds(one, other, e_.normal[other], alike);
   }
 
-  // At the edge to a corner.
-  bool folds_at(const Moved& one, int32_t corner) const {
-    const Moved* other = nullptr;
-    for (const Moved& beside : star_) {
-      if (&beside == &one || (beside.next != corner && beside.last != corner)) continue;
-      if (other) return false;
-      other = &beside;
+  // At an edge to a corner that two triangles share, and no third one.
+  bool folds_between(const Moved& one, const Moved& other) const {
+    for (const int32_t corner : {one.next, one.last}) {
+      if (other.next != corner && other.last != corner) continue;
+      const bool alike = (one.next == corner) != (other.next == corner);
+      if (folds(one, other.triangle, other.normal, alike) && uses(corner) == 2) return true;
     }
-    if (!other) return false;
-    const bool alike = (one.next == corner) != (other->next == corner);
-    return folds(one, other->triangle, other->normal, alike);
+    return false;
+  }
+
+  int64_t uses(int32_t corner) const {
+    return std::count_if(star_.begin(), star_.end(), [corner](const Moved& one) {
+      return one.next == corner || one.last == corner;
+    });
   }
 
   // Triangles that are turned alike go along their common edge in opposite directions.
@@ -94,40 +114,18 @@ class MovedStar {
 
   const EvenMesh& e_;
   std::vector<Moved> star_;
+  bool keeps_sides_ = true;
 };
 
 }  // namespace
 
-bool folds(const EvenMesh& even, int32_t v, const Vec3& place) {
-  return MovedStar(even, v, place).folds();
-}
-
-bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place) {
-  const Triangle& corners = even.mesh.triangle(triangle);
-  Places places = places_of(even, corners);
-  const Plane before = plane_of(places);
-  places[corner_of(corners, corner)] = place;
-  const Plane after = plane_of(places);
-  const double turn = dot(after.normal, even.normal[triangle]);
-  if (after.height >= kNeedle) return turn > kMostTurn;
-  return before.height < kNeedle && after.height >= before.height && turn >= 0;
-}
-
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place) {
-  bool keeps = true;
-  even.mesh.for_triangles(v, [&](int32_t t) { keeps = keeps && keeps_side(even, t, v, place); });
-  return keeps && !folds(even, v, place);
+  return MovedStar(even, v, place).is_sound();
 }
 
 bool can_collapse(const EvenMesh& even, int32_t from, int32_t to) {
-  if (!even.mesh.can_collapse(from, to)) return false;
-  const Vec3& place = even.position[to];
-  bool keeps = true;
-  even.mesh.for_triangles(from, [&](int32_t t) {
-    const Edge others = link_of(even.mesh.triangle(t), from);
-    keeps = keeps && (others[0] == to || others[1] == to || keeps_side(even, t, from, place));
-  });
-  return keeps && !folds(even, from, place);
+  return even.mesh.can_collapse(from, to) &&
+         MovedStar(even, from, even.position[to], to).is_sound();
 }
 
 void settle_normal(EvenMesh& even, int32_t triangle) {

@@ -28,12 +28,8 @@ struct EvenMesh {
   std::vector<Vec3> normal;
 };
 
-// Returns whether a triangle would keep its side if one of its corners moved to a place.
-bool keeps_side(const EvenMesh& even, int32_t triangle, int32_t corner, const Vec3& place);
-// Returns whether sheets would turn by more than 120 degrees at an edge, at which they do not yet,
-// of a triangle at a vertex, if this moved to a place.
-bool folds(const EvenMesh& even, int32_t v, const Vec3& place);
-// Returns whether all triangles at a vertex would keep their side, and no sheet would fold.
+// Returns whether all triangles at a vertex would keep their side if it moved to a place, and no
+// sheet would turn by more than 120 degrees at an edge of them at which it does not yet.
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
 // Returns whether a vertex can be collapsed into another one: the complex allows it, triangles keep
 // their side, and no sheet folds.

@@ -48,6 +48,7 @@ class Remesher {
   }
 
   void smooth() {
+    find_places();
     if (options_.moves_curves) {
       for (int i = 0; i < kCurveSteps; ++i) {
         step(Stratum::node, kStep);
@@ -67,6 +68,13 @@ class Remesher {
     bool operator<(const Ranked& other) const {
       return std::tie(rank, a, b) < std::tie(other.rank, other.a, other.b);
     }
+    bool operator==(const Ranked& other) const = default;
+  };
+
+  // A vertex, and on a curve its neighbours along it.
+  struct Place {
+    int32_t vertex;
+    Edge along;
   };
 
   double edge_length(int32_t a, int32_t b) const {
@@ -79,11 +87,16 @@ class Remesher {
   // Returns the edges that are too short (sign 1), shortest first, or too long (-1), longest first.
   std::vector<Ranked> edges_beyond(double sign) const {
     std::vector<Ranked> found;
-    for (const auto& [a, b] : mesh_.edges()) {
-      const double share = edge_length(a, b) / target(a, b);
-      if (sign > 0 ? share < kShort : share > kLong) found.push_back({sign * share, a, b});
+    for (int32_t t = 0; t < mesh_.triangles(); ++t) {
+      if (mesh_.is_gone(t)) continue;
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(mesh_.triangle(t)[i], mesh_.triangle(t)[(i + 1) % 3]);
+        const double share = edge_length(a, b) / target(a, b);
+        if (sign > 0 ? share < kShort : share > kLong) found.push_back({sign * share, a, b});
+      }
     }
     std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
@@ -105,7 +118,7 @@ class Remesher {
   bool collapse(int32_t from, int32_t to) {
     if (mesh_.stratum(from) > mesh_.stratum(to) || !mesh_.has_triangles(from)) return false;
     if (!(edge_length(from, to) < kShort * target(from, to))) return false;
-    if (!keeps_line(from, to) || !can_collapse(e_, from, to) || !stays_short(from, to))
+    if (!keeps_line(from, to) || !stays_short(from, to) || !can_collapse(e_, from, to))
       return false;
     moved_.clear();
     mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
@@ -155,13 +168,24 @@ class Remesher {
     for (int i = 0; i < 2; ++i) e_.normal[two[i]] = (*normals)[i];
   }
 
-  Vec3 wanted_place(int32_t v, double share) const {
-    if (e_.held[v] == kStill) return e_.position[v];
-    if (e_.held[v] && mesh_.stratum(v) != Stratum::curve) return e_.position[v];
-    if (mesh_.stratum(v) == Stratum::sheet) return centre_of_sheet(v);
-    if (mesh_.stratum(v) == Stratum::node) return centre_of_curves(v);
-    const Edge along = mesh_.along_curve(v);
-    const Vec3 &a = e_.position[along[0]], &b = e_.position[along[1]], &here = e_.position[v];
+  void find_places() {
+    for (auto& places : places_) places.clear();
+    for (int32_t v = 0; v < mesh_.vertices(); ++v) {
+      if (!mesh_.has_triangles(v) || e_.held[v] == kStill) continue;
+      const Stratum stratum = mesh_.stratum(v);
+      const bool on_curve = stratum == Stratum::curve;
+      if (e_.held[v] && !on_curve) continue;
+      places_of(stratum).push_back({v, on_curve ? mesh_.along_curve(v) : Edge{}});
+    }
+  }
+  std::vector<Place>& places_of(Stratum stratum) { return places_[static_cast<size_t>(stratum)]; }
+
+  Vec3 wanted_place(const Place& place, Stratum stratum, double share) const {
+    const int32_t v = place.vertex;
+    if (stratum == Stratum::sheet) return centre_of_sheet(v);
+    if (stratum == Stratum::node) return centre_of_curves(v);
+    const Vec3 &a = e_.position[place.along[0]], &b = e_.position[place.along[1]];
+    const Vec3& here = e_.position[v];
     const Vec3 way = 0.5 * (a + b) - here;
     if (e_.held[v]) return share > 0 ? options_.onto_line(here + share * way) : here;
     if (options_.moves_curves) return here + share * way;
@@ -200,15 +224,13 @@ class Remesher {
   }
 
   void step(Stratum stratum, double share) {
-    const auto count = static_cast<int64_t>(mesh_.vertices());
-    std::vector<Vec3> wanted(e_.position);
-    parallel_for(count, {run_.threads, nullptr, nullptr}, [&](int64_t id) {
-      const auto v = static_cast<int32_t>(id);
-      if (mesh_.has_triangles(v) && mesh_.stratum(v) == stratum) wanted[v] = wanted_place(v, share);
-    });
-    for (int32_t v = 0; v < mesh_.vertices(); ++v) {
-      if (wanted[v] == e_.position[v]) continue;
-      if (keeps_sides(e_, v, wanted[v])) move(e_, v, wanted[v]);
+    const std::vector<Place>& places = places_of(stratum);
+    wanted_.resize(places.size());
+    parallel_for(static_cast<int64_t>(places.size()), {run_.threads, nullptr, nullptr},
+                 [&](int64_t i) { wanted_[i] = wanted_place(places[i], stratum, share); });
+    for (size_t i = 0; i < places.size(); ++i) {
+      const int32_t v = places[i].vertex;
+      if (wanted_[i] != e_.position[v] && keeps_sides(e_, v, wanted_[i])) move(e_, v, wanted_[i]);
     }
   }
 
@@ -217,6 +239,8 @@ class Remesher {
   const RemeshOptions& options_;
   const Run& run_;
   std::vector<int32_t> moved_, split_off_;
+  std::array<std::vector<Place>, 3> places_;  // what moves, by stratum
+  std::vector<Vec3> wanted_;
 };
 
 // Returns whether the facets of one sheet at a vertex look different ways.

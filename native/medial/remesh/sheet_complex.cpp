@@ -62,6 +62,17 @@ const std::vector<int32_t>& SheetComplex::triangles_at(int32_t a, int32_t b) con
   return at_edge_;
 }
 
+int32_t SheetComplex::across(int32_t t, int32_t a, int32_t b) const {
+  int32_t found = -1;
+  for (int32_t c = first_[a]; c >= 0; c = next_[c]) {
+    const Triangle& corners = triangles_[c / 3];
+    if (c / 3 == t || (corners[0] != b && corners[1] != b && corners[2] != b)) continue;
+    if (found >= 0) return -1;
+    found = c / 3;
+  }
+  return found;
+}
+
 std::vector<int32_t> SheetComplex::curve_neighbours(int32_t v) const {
   std::vector<int32_t> all, found;
   for_corners(v, [&](int32_t other) { all.push_back(other); });

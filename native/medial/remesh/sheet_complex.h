@@ -60,6 +60,8 @@ class SheetComplex {
   bool is_inside_sheet(int32_t a, int32_t b) const { return uses(a, b) == 2; }
   // Returns the triangles at an edge, in no particular order.
   const std::vector<int32_t>& triangles_at(int32_t a, int32_t b) const;
+  // Returns the other triangle at an edge of two triangles, or -1 where there are not two.
+  int32_t across(int32_t t, int32_t a, int32_t b) const;
   int32_t third_corner(int32_t t, int32_t a, int32_t b) const {
     const Edge others = link_of(triangles_[t], a);
     return others[0] == b ? others[1] : others[0];

@@ -193,6 +193,14 @@ Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentri
   return {triangle, at, point, medial::distance(from, point)};
 }
 
+bool Faces::is_at_end(const Foot& foot) const {
+  const double coordinates[3] = {foot.at.a, foot.at.b, foot.at.c};
+  for (int i = 0; i < 3; ++i) {
+    if (coordinates[i] == 0 && separates_[edge_of_[foot.triangle][(i + 1) % 3]]) return true;
+  }
+  return false;
+}
+
 Foot Faces::descend_again(const Foot& before, const Vec3& from) const {
   if (!is_curved(before.triangle)) return descend(before.triangle, from);
   const Patch patch = surface_->patch(before.triangle);
@@ -245,6 +253,7 @@ Foot Faces::lifted_beside(const Foot& foot, const Vec3& from) const {
 }
 
 std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
+  searches_.fetch_add(1, std::memory_order_relaxed);
   return nearest_place<Foot>(
       nodes_, order_, than,
       [&](const Node& node) { return medial::squared_distance(node.box, from); },

@@ -5,6 +5,7 @@
 
 #include <medial/faces.h>
 
+#include <atomic>
 #include <limits>
 #include <optional>
 
@@ -72,6 +73,9 @@ class Faces {
   }
   // Returns the normal of the patch itself, which that between the corners only follows.
   Vec3 normal_of_patch(int32_t triangle, const Barycentric& at) const;
+  Patch patch(int32_t triangle) const { return surface_->patch(triangle); }
+  // Returns whether a foot is on an edge that separates two walls.
+  bool is_at_end(const Foot& foot) const;
   // Returns the foot on one triangle.
   Foot foot_on(int32_t triangle, const Vec3& from) const;
   // Walks from a triangle to neighbours of the same wall while they are nearer.
@@ -82,6 +86,8 @@ class Faces {
   Foot descend_again(const Foot& before, const Vec3& from) const;
   // Returns the nearest place of all faces if it is nearer than a distance.
   std::optional<Foot> nearer(const Vec3& from, double than) const;
+  // Returns how often `nearer` has searched: what balls cost.
+  int64_t searches() const { return searches_; }
   // Returns the foot on the flat triangle, lifted to the surface: close to the nearest place of a
   // curved triangle, and sooner found.
   Foot lifted(int32_t triangle, const Vec3& from) const {
@@ -164,6 +170,7 @@ class Faces {
   std::vector<Bulge> bulge_;                    // per triangle, rounded up; empty if all are flat
   std::vector<int32_t> order_;                  // triangles, leaf after leaf
   std::vector<Node> nodes_;
+  mutable std::atomic<int64_t> searches_{0};
 };
 
 }  // namespace medial

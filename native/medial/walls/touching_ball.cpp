@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/touching_ball.h"
 
+#include "walls/followed_ball.h"
+
 namespace medial {
 namespace {
 
 constexpr int kBallSteps = 16;
-constexpr int kPatience = 4;  // steps after which each has to halve the inequality
-// Directions to walls that differ by less than about 5 degrees do not determine a place.
-constexpr double kSameDirection = 0.08;
 constexpr double kRounding = 2e-14;  // of the radius
+constexpr int kPatience = 4;         // steps after which each has to halve the inequality
 
 struct Feet {
   std::array<Foot, kMostContacts> foot;
@@ -79,6 +79,7 @@ double inequality(const Feet& feet) {
 }  // namespace
 
 TouchingBall touching_ball(const Faces& faces, std::span<int32_t> walls, const Vec3& start) {
+  if (const auto followed = followed_ball(faces, walls, start)) return *followed;
   Vec3 centre = start;
   Feet feet = feet_of(faces, walls, centre);
   double before = HUGE_VAL;
