@@ -62,7 +62,6 @@ QUICK_TESTS = (
     "test_import.py",
     "test_layers.py",
     "test_stub.py",
-    "test_checklist.py",
     "test_build_addon.py",
     "test_parts.py",
     "test_matrix.py",
