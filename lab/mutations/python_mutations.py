@@ -95,7 +95,6 @@ MUTATIONS = (
         "the volume is measured from the origin",
         "test_sampling.py",
         "test_extreme_coordinates.py",
-        "test_equality.py",
     ),
     _bug(
         "samples/buried_samples.py",

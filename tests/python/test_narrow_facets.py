@@ -60,7 +60,7 @@ def assert_all_with_a_width(study, points):
     """Judged by exact centres; the reference shares no code with the product."""
     cells = study.delaunay(points)[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
-    expected = reference.Medial(points, cells)
+    expected = reference.Voronoi(points, cells)
     analysis = study.MedialAnalysis(points, sides=study.SidesFrom.NONE)
     mesh, chosen = analysis.extract(0.0, 0.0), analysis.select(0.0, 0.0)
     there = set(map(tuple, mesh.generators.tolist()))
