@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support import inputs, reference
+from support import inputs, meshes, reference
 
 from tests.support.fuzz import repeats
 
@@ -27,18 +27,11 @@ def turned(points, seed):
     return inputs.turned(points, *quaternion).astype(np.float32).astype(np.float64)
 
 
-def torus(around=24, across=8):
-    u, v = np.meshgrid(*(np.arange(n) * 2 * np.pi / n for n in (around, across)))
-    out = 1 + 0.4 * np.cos(v)
-    rows = np.stack((out * np.cos(u), out * np.sin(u), 0.4 * np.sin(v)), -1)
-    return rows.reshape(-1, 3).astype(np.float32).astype(np.float64)
-
-
 CASES = {
     **{f"box {seed}": turned(grid_of_a_box((1, 1, 1), (5, 5, 5)), seed) for seed in range(4)},
     "long box": turned(grid_of_a_box((3, 1, 1), (8, 3, 3)), 7),
     "slab": turned(grid_of_a_box((1, 1, 1e-6), (8, 8, 1)), 8),
-    "torus": torus(),
+    "torus": meshes.torus(1.0, 0.4, 24, 8)[0].astype(np.float32).astype(np.float64),
 }
 
 
