@@ -65,17 +65,6 @@ def test_levels_are_nested_and_zero_changes_nothing(tabbed):
     assert len(before.facet_of) < len(same.facet_of)
 
 
-def test_any_number_of_threads_gives_the_same_values(tabbed, medial):
-    points = shown(tabbed)[0].chosen.samples.points
-    one, three = (
-        medial.MedialAnalysis(points, tabbed[1], vertices=tabbed[0], threads=n)
-        .hierarchy()
-        .facet_spike
-        for n in (1, 3)
-    )
-    assert np.array_equal(one, three) and np.isfinite(one).all() and one.max() > 0.1
-
-
 @pytest.mark.parametrize("spike", [0.005, 0.02, 0.1])
 def test_levels_without_teeth_have_the_topology_of_the_solid(spike):
     """Levels for the eye lose facets that stick out of their rims."""
