@@ -126,7 +126,7 @@ one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --w
 Python {" and ".join(other_systems.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64; with --macos those for Macs,
 with --linux-arm64 and --windows-arm64 those for Linux and Windows on arm64, by zig, which comes from Python's package
 index into build/zig. A build of a commit that is not the tag of a release carries the commit in its version:
-0.2.0+g1a2b3c4d."""
+VERSION+g1a2b3c4d."""
 
 PACK_HELP = """Makes the zips of `build` from the modules that lie in blender_addon/lib, which may come from other
 machines: one zip for all systems, and for the extensions platform one for each system that has a module. With --wheels

@@ -15,7 +15,7 @@ TYPE_CHECKING = False
 bl_info = {
     "name": "Medial Axis",
     "author": "Medial Axis contributors",
-    "version": (0, 2, 0),
+    "version": (0, 3, 0),
     "blender": (3, 4, 0),
     "location": "3D Viewport > Sidebar > Medial Axis, and Object > Compute Medial Axis",
     "description": "Compute the medial axis of meshes and point clouds, with radii",

@@ -76,8 +76,7 @@ def measured(work: Input, bare: Path, program: str, repeats: int) -> dict:
     with tempfile.TemporaryDirectory(prefix="medial_axis_bench_") as name:
         folder = Path(name)
         work.write(folder)
-        blender = addon.Blender([program], folder / "profile")
-        blender.environment["MEDIAL_AXIS_MODULE"] = blender.install(addon.pack_sources(folder))
+        blender = _with_the_addon(program, folder)
         for _ in range(repeats):
             alone = measuring.bare(bare, folder)
             turns.append({"bare": alone, **_in_blender(blender, folder, "--background")})
@@ -94,17 +93,28 @@ def measured(work: Input, bare: Path, program: str, repeats: int) -> dict:
     return {"input": work.name, "points": len(work.points), **median(turns)}
 
 
+def clicked(folder: Path, program: str = "blender") -> dict:
+    """One turn of Blender alone, without a window."""
+    return _in_blender(_with_the_addon(program, folder), folder, "--background", only="click")
+
+
+def _with_the_addon(program: str, folder: Path) -> addon.Blender:
+    blender = addon.Blender([program], folder / "profile")
+    blender.environment["MEDIAL_AXIS_MODULE"] = blender.install(addon.pack_sources(folder))
+    return blender
+
+
 def _in_window(blender: addon.Blender, folder: Path) -> dict:
     with drive.display(drive.SIZE) as number:
         blender.environment |= {"DISPLAY": number, "LIBGL_ALWAYS_SOFTWARE": "1"}
         return _in_blender(blender, folder, "--window-geometry", "0", "0", *map(str, drive.SIZE))
 
 
-def _in_blender(blender: addon.Blender, folder: Path, *how: str) -> dict:
+def _in_blender(blender: addon.Blender, folder: Path, *how: str, only: str = "") -> dict:
     answer = folder / "answer.json"
     answer.unlink(missing_ok=True)
     command = [*blender.program, *how, "--factory-startup", "--python-exit-code", "1"]
-    command += ["--python", SCRIPT, "--", folder, answer]
+    command += ["--python", SCRIPT, "--", folder, answer, *only.split()]
     text, others = measuring.in_child(command, env=blender.environment)
     if not answer.exists():
         raise SystemExit(f"Blender gave no answer:\n{text}")

@@ -2,10 +2,10 @@
 """Runs inside Blender: one run of Compute Medial Axis from object to object, and what sliders cost then.
 
     MEDIAL_AXIS_MODULE=medial_axis blender --background --factory-startup --python-exit-code 1 \
-        --python lab/benchmarks/in_blender.py -- FOLDER ANSWER
+        --python lab/benchmarks/in_blender.py -- FOLDER ANSWER [click]
 
-The folder holds the input, as `measuring.Input.write` leaves it; the answer is a JSON file. In a window the time
-until the new axis is drawn is measured, too, and beside it that of drawing the same once more.
+The folder holds the input, as `measuring.Input.write` leaves it; the answer is a JSON file. With `click` no slider
+moves. In a window the time until the new axis is drawn is measured, too, and that of drawing the same once more.
 """
 
 from __future__ import annotations
@@ -29,16 +29,22 @@ CHANGES = 8  # of each slider; the first is not counted
 
 
 def main() -> None:
-    folder, answer = sys.argv[sys.argv.index("--") + 1 :]
+    folder, answer, *only = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.preferences.addon_enable(module=MODULE)
     add_object(Input.read(Path(folder)))
     found = run()
+    if not only:
+        add_changes(found)
+    Path(answer).write_text(json.dumps(found))
+
+
+def add_changes(found: dict) -> None:
+    """Add what another value of a slider costs."""
     changes = [change("erode", 0.05 * number) for number in range(1, CHANGES + 1)][1:]
     for kind, values in median(changes).items():
         found[kind] |= values
     others = [change("rho", 9.0 + number) for number in range(CHANGES // 2)][1:]
     found["seconds"]["rho"] = median(others)["seconds"]["change"]
-    Path(answer).write_text(json.dumps(found))
 
 
 def add_object(work: Input) -> None:

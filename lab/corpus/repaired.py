@@ -2,7 +2,7 @@
 """Meshes of the corpus as they are, and repaired by hand in Blender: the pieces, loops and cavities of both axes.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/corpus/repaired.py -- \\
-        --zip dist/medial_axis-0.2.0.zip --cache build/corpus/packages
+        --zip dist/medial_axis-VERSION.zip --cache build/corpus/packages
 
 The packages are those that `python3 -m lab.corpus` has unpacked. By hand means what a modeller does: Merge by Distance,
 Delete Loose and Recalculate Outside, and then Fill Holes, too. The rows are printed as Markdown.

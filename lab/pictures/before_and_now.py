@@ -4,7 +4,7 @@
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/before_and_now.py -- \\
         --zip older.zip --column before --folder pictures
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/before_and_now.py -- \\
-        --zip dist/medial_axis-0.2.0.zip --column now --folder pictures --output docs/pictures/before_and_now.png
+        --zip dist/medial_axis-VERSION.zip --column now --folder pictures --output docs/pictures/before_and_now.png
 
 With --output the pictures of both columns are put together. Meshes come from the folder in MEDIAL_AXIS_TEST_DATA.
 """

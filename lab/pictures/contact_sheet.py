@@ -2,7 +2,7 @@
 """Contact sheets: what one click makes of each primitive of Blender and of each mesh of the data folder.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/contact_sheet.py -- \\
-        --zip dist/medial_axis-0.2.0.zip --output pictures [--only cube igea ...] [--forms published clean curve]
+        --zip dist/medial_axis-VERSION.zip --output pictures [--only cube igea ...] [--forms published clean curve]
         [--spikes 0 0.5 1]
 
 The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With

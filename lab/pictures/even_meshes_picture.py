@@ -2,7 +2,7 @@
 """The picture of even meshes: the sheets of Suzanne and two bodies as facets of the Voronoi diagram, and even below.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/even_meshes_picture.py -- \\
-        dist/medial_axis-0.2.0.zip docs/pictures/even_meshes.png
+        dist/medial_axis-VERSION.zip docs/pictures/even_meshes.png
 
 Meshes come from the folder in MEDIAL_AXIS_TEST_DATA; ImageMagick's `montage` puts the panes side by side.
 """

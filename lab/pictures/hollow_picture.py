@@ -2,7 +2,7 @@
 """The picture of hollow solids: a body cut in half, by a Solidify modifier and by Hollow with a drain hole.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/hollow_picture.py -- \\
-        dist/medial_axis-0.2.0.zip spot_low.obj docs/pictures/hollow_solid.png
+        dist/medial_axis-VERSION.zip spot_low.obj docs/pictures/hollow_solid.png
 """
 
 import sys

@@ -2,7 +2,7 @@
 """Pictures of what artists get from points alone: the watertight surface left, the inner axis in it right.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/point_cloud_pictures.py -- \\
-        --zip dist/medial_axis-0.2.0.zip --output pictures [--only cactus lion ...]
+        --zip dist/medial_axis-VERSION.zip --output pictures [--only cactus lion ...]
 
 Every data set becomes an object of vertices without faces, from which both operators work; their reports are printed.
 Back sides of the surface are red: none should show. Where the file has faces, facets that only the points give are

@@ -2,7 +2,7 @@
 """The picture of a rig: the bones in a body, and the body in a pose with weights of the axis and with Blender's.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/rig_picture.py -- \\
-        dist/medial_axis-0.2.0.zip human_woman.obj docs/pictures/rig.png
+        dist/medial_axis-VERSION.zip human_woman.obj docs/pictures/rig.png
 
 Workbench draws it, which needs a display, as that of `xvfb-run`; ImageMagick's `montage` puts the panes side by side.
 """

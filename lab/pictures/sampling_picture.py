@@ -2,7 +2,7 @@
 """Makes the picture of Report Sampling in the user guide: Suzanne, subdivided twice, coloured by epsilon.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/sampling_picture.py -- \\
-        --zip dist/medial_axis-0.2.0.zip [--output docs/pictures/sampling_report.png]
+        --zip dist/medial_axis-VERSION.zip [--output docs/pictures/sampling_report.png]
 """
 
 import argparse

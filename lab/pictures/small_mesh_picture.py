@@ -2,7 +2,7 @@
 """The picture of small medial meshes: a column per body with its surface, its small mesh, and the solid rebuilt of it.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/small_mesh_picture.py -- \\
-        dist/medial_axis-0.2.0.zip docs/pictures/small_mesh.png
+        dist/medial_axis-VERSION.zip docs/pictures/small_mesh.png
 
 Meshes come from the folder in MEDIAL_AXIS_TEST_DATA; ImageMagick's `montage` puts the panes side by side.
 """

@@ -2,7 +2,7 @@
 """The picture of thicker walls: an open box with thin walls, and beside it the same box with walls as thick as a limit.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/thicken_picture.py -- \\
-        dist/medial_axis-0.2.0.zip docs/pictures/thicken.png
+        dist/medial_axis-VERSION.zip docs/pictures/thicken.png
 """
 
 import sys

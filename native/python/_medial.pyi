@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__version__: str  # Of the add-on and of the package, such as "0.2.0".
+__version__: str  # that of the add-on and of the package
 
 class InvalidInputError(ValueError):
     """An argument has the wrong shape, type, range or a value that is not finite; the message says which."""

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
 
-    python3 tests/addon/run.py --zip dist/medial_axis-0.2.0.zip [--blender blender] [pytest arguments]
+    python3 tests/addon/run.py --zip dist/medial_axis-VERSION.zip [--blender blender] [pytest arguments]
     python3 tests/addon/run.py --zip ... --bpy PYTHON [pytest arguments]
     python3 tests/addon/run.py --zip ... --gui [--keep FOLDER] [scenes]
     python3 tests/addon/run.py --zip ... --script FILE [arguments]

@@ -264,21 +264,6 @@ def test_cancelled_job_leaves_nothing():
     assert contents() == before
 
 
-def test_progress_is_told():
-    points, _ = on_ellipsoid(60_000)
-    work = addon("core.rebuild.reconstruction").reconstruct
-    job = addon("core.machine.job").Job(
-        [addon("core.machine.job").Task("Scan", lambda progress: work(points, progress))]
-    )
-    seen = []
-    while not job.done:
-        seen.append((job.fraction, job.stage))
-    fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
-    assert len({stage for _, stage in seen}) > 3, {stage for _, stage in seen}
-    assert len(job.outcomes()[0].value.triangles) == 2 * 60_000 - 4
-
-
 def test_refusal_while_another_computation_runs_names_it():
     scan()
     points, _ = on_ellipsoid(300_000)

@@ -281,18 +281,6 @@ def test_points_without_faces_get_a_copy():
     assert "reconstructed surface" in carrier["ma_thickness_normals"]
 
 
-def test_gap_between_two_objects_in_one_mesh():
-    source = box()
-    lower = positions(source.data)
-    faces = [tuple(polygon.vertices) for polygon in source.data.polygons]
-    both = [*faces, *(tuple(corner + 8 for corner in face) for face in faces)]
-    pair = link("Pair", np.vstack([lower, np.add(lower, (0, 0, 0.45))]), both)
-    carrier = measure(pair, limit=0.06, between="GAP")
-    assert carrier["ma_thickness_minimum"] == pytest.approx(0.05, rel=0.01)
-    assert carrier["ma_thickness_patches"] == 2
-    assert np.count_nonzero(thin_faces(pair)) == 2
-
-
 def test_one_undo_takes_the_measurement_away():
     bpy.context.preferences.edit.use_global_undo = True
     name, before = torus().name, len(bpy.data.objects)

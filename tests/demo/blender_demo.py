@@ -2,7 +2,7 @@
 """One model of the demo, inside Blender: install the zip, compute, export, render, report.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/blender_demo.py -- \\
-        --zip dist/medial_axis-0.2.0.zip --model suzanne --subdivide 3 --output demo_output --report report.json
+        --zip dist/medial_axis-VERSION.zip --model suzanne --subdivide 3 --output demo_output --report report.json
 """
 
 import argparse

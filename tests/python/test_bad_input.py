@@ -11,7 +11,7 @@ from support import inputs, meshes, shapes
 
 CLOUD = np.random.default_rng(0).random((50, 3))
 BALL = meshes.icosphere(1)
-STAGES = ("MedialAnalysis", "delaunay", "poles", "umbrellas")
+STAGES = ("MedialAnalysis", "delaunay", "poles", "umbrellas", "TightCocone", "cocone")
 
 
 def one_sentence(error):

@@ -16,6 +16,7 @@ from medial_axis.core.errors import (
     InvalidInputError,
 )
 from support import meshes, swept
+from support.distance import points_on_triangles
 from support.shape_meshes import of_capsule
 from support.shapes import SHAPES
 
@@ -39,16 +40,9 @@ def distances(places, balls):
     return np.linalg.norm(places[:, None] - centres[None], axis=2) - radii
 
 
-def on_surface(mesh, count=20_000, seed=0):
+def on_surface(mesh, count=20_000):
     """(count, 3) random points of the surface."""
-    vertices, triangles = mesh
-    corners = vertices[triangles]
-    area = np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
-    random = np.random.default_rng(seed)
-    rows = random.choice(len(area), count, p=area / area.sum())
-    return (random.dirichlet((1, 1, 1), count)[:, :, None] * corners[rows]).sum(axis=1)
+    return points_on_triangles(mesh[0][mesh[1]], count, np.random.default_rng(0))
 
 
 @cache

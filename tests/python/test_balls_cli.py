@@ -73,14 +73,18 @@ def run(command, capsys):
     return words
 
 
+def times(folder):
+    return {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
+
+
 def test_a_result_is_reported_kept_and_made_again(here, run, command):
     out = f"plate.{command.suffix}"
     code, (report,), said = run("plate.off", out)
     assert code in command.may_end and said.count("\n") == len(report["warnings"])
     assert report["status"] == "done" and command.figure in report
     assert json.loads((here / f"{out}.json").read_text()) == report
-    before = (here / out).read_bytes()
-    assert run("plate.off", out)[1][0] == {**report, "status": "kept"}
+    before, written = (here / out).read_bytes(), times(here)
+    assert run("plate.off", out)[1][0] == {**report, "status": "kept"} and times(here) == written
     code, (other,), _ = run("plate.off", out, *command.other)
     name, value = command.other[0].removeprefix("--"), command.other[1]
     assert other["status"] == "done" and other["settings"][name] == float(value)

@@ -13,6 +13,7 @@ import pytest
 from medial_axis.core.errors import DegenerateInputError, ExportError
 from medial_axis.core.portable_angle import angle_of
 from support import meshes, swept
+from support.distance import points_on_triangles
 
 TORUS = meshes.torus(1.0, 0.4, 48, 24)
 
@@ -48,13 +49,6 @@ def off(places, found):
             for part in np.array_split(places, max(1, len(places) // 100))
         ]
     )
-
-
-def on_surface(mesh, count=1500):
-    vertices, triangles = mesh
-    random = np.random.default_rng(5)
-    corners = vertices[triangles[random.integers(0, len(triangles), count)]]
-    return (random.dirichlet((1, 1, 1), count)[:, :, None] * corners).sum(axis=1)
 
 
 def reach_out(medial, found, mesh):
@@ -98,7 +92,7 @@ def test_promises_hold(medial, mode, tapered):
     found = cover(medial, ring_case(), mode, tapered=tapered, places=20_000)
     assert len(found.radii) == 24 and (tapered or (found.radii[::2] == found.radii[1::2]).all())
     assert reach_out(medial, found, TORUS) <= found.outside + 1e-12
-    away = off(on_surface(TORUS), found).max()
+    away = off(points_on_triangles(TORUS[0][TORUS[1]], 1500, np.random.default_rng(5)), found).max()
     assert away <= found.farthest + 1e-5
     if mode == "INSIDE":
         assert found.outside == 0.0 and found.farthest < away + 2 * found.step

@@ -107,12 +107,6 @@ def test_output_is_what_compute_and_export_make(here, run):
     assert json.loads(Path("egg.ma.json").read_text()) == report
 
 
-@pytest.mark.parametrize("suffix", ["ma", "ply", "obj", "off", "npz"])
-def test_every_format(here, run, suffix):
-    code, (report,), _ = run("egg.xyz", f"egg.{suffix}")
-    assert code == cli.DONE and Path(report["output"]).stat().st_size > 1000
-
-
 def test_lines_for_people(here, capsys):
     assert cli.main(["egg.xyz", "egg.ma"]) == cli.DONE
     said = capsys.readouterr()
@@ -390,15 +384,6 @@ def test_refused_name_of_an_output_stops_no_other(here, run):
 
 
 # --- resuming
-
-
-def test_finished_outputs_are_kept(here, run):
-    first = run("egg.xyz", "egg.ma")[1][0]
-    written = os.stat("egg.ma").st_mtime_ns, os.stat("egg.ma.json").st_mtime_ns
-    second = run("egg.xyz", "egg.ma")[1][0]
-    assert second == {**first, "status": "kept"}
-    assert (os.stat("egg.ma").st_mtime_ns, os.stat("egg.ma.json").st_mtime_ns) == written
-    assert run("egg.xyz", "egg.ma", "--force")[1][0]["status"] == "done"
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from medial_axis.core.thickness.write_thickness import export_thickness
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from support import meshes
-from support.thick_meshes import joined
+from support.meshes import join
 
 from tests.support.fuzz import repeats
 
@@ -141,7 +141,7 @@ def test_fuzzed_thin_parts(medial, seed):
     rng = np.random.default_rng(seed)
     mesh = cube_with_fin(rng.uniform(0.05, 0.6), 10 ** rng.uniform(-5.0, -1.5))
     if rng.random() < 0.4:
-        mesh = joined(mesh, moved_block(*rng.uniform(-0.6, 0.6, 2), rng.uniform(-1.2, -0.2)))
+        mesh = join(mesh, moved_block(*rng.uniform(-0.6, 0.6, 2), rng.uniform(-1.2, -0.2)))
     elif rng.random() < 0.4:
         mesh = box(1.0, rng.uniform(0.1, 1.0), 10 ** rng.uniform(-5.0, -1.5))
     turned = mesh[0] @ Rotation.random(random_state=seed).as_matrix().T
@@ -268,7 +268,7 @@ def moved_block(*offset):
 
 def test_a_fin_on_parts_that_overlap():
     """Rays pass through the walls inside the solid, so they are right where parts overlap."""
-    found = measured(*joined(cube_with_fin(0.5, 0.002), moved_block(0.5, 0.3, -0.5)), limit=0.02)
+    found = measured(*join(cube_with_fin(0.5, 0.002), moved_block(0.5, 0.3, -0.5)), limit=0.02)
     assert found.chosen.samples.buried > 100
     assert found.minimum == pytest.approx(0.002, rel=0.01)
     assert 0.005 < find_thin_parts(found, 0.02).share < 0.02
@@ -279,7 +279,7 @@ def test_a_fin_on_parts_that_overlap():
     [(0.5, 0.3, 0.2), (0.99, 0.3, 0.2), (0.0, 0.001, 0.6), (1e-16, 0, 0.5), (0, 1e-9, 0.6)],
 )
 def test_thick_parts_that_overlap_have_no_close_walls(offset):
-    found = measured(*joined(box(1.0, 1.0, 1.0), moved_block(*offset)))
+    found = measured(*join(box(1.0, 1.0, 1.0), moved_block(*offset)))
     assert found.chosen.samples.buried > 100 and not len(found.walls.distance)
 
 

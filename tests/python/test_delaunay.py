@@ -30,6 +30,26 @@ def test_cells_equal_qhull(study, kind, n):
     assert np.array_equal(reference.sort_cells(cells[finite]), wanted)
 
 
+STRUCTURED = inputs.structured_cases()
+
+
+@pytest.mark.parametrize("name", STRUCTURED)
+def test_coincident_samples_by_exact_integers(study, name):
+    """Grids, spheres and prisms, also turned, so that rounding breaks their coincidences."""
+    points = STRUCTURED[name]
+    cells, _, centres = study.delaunay(points)
+    finite = (cells >= 0).all(axis=1)
+    exact = reference.Voronoi(points, reference.sort_cells(cells[finite]))
+    reference.assert_delaunay(points, exact.cells)
+    order = np.lexsort(np.sort(cells[finite], axis=1).T[::-1])
+    error = np.linalg.norm(centres[finite][order] - exact.centres, axis=1)
+    rounding = np.spacing(np.abs(exact.centres).max(axis=1)) * 2
+    assert (error <= exact.radius * 2.0**-24 + rounding).all()
+    analysis = study.MedialAnalysis(points, sides=study.SidesFrom.NONE)
+    assert np.array_equal(analysis.edges, exact.edges)
+    assert np.array_equal(analysis.bounded, exact.bounded)
+
+
 def test_neighbors_share_three_corners_and_know_each_other(study):
     cells, neighbors, _ = study.delaunay(inputs.generic("ellipsoid", 2000, 5))
     for column in range(4):

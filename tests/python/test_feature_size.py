@@ -138,10 +138,6 @@ def test_bounding_sphere_has_no_feature_size(medial):
     assert np.median(bounded.spacing / plain.spacing) == 1.0
 
 
-def test_nothing_selected_is_infinitely_far(medial):
-    assert np.isposinf(analysis_of(medial, CLOUD).feature_size(np.pi / 2, np.inf)).all()
-
-
 @pytest.mark.parametrize("name", ["ellipsoid", "random", "turned grid", "box"])
 def test_spacing_is_the_largest_circumradius_of_the_umbrella(study, name):
     points = CASES[name]
@@ -174,24 +170,6 @@ def test_chosen_rows(medial):
     chosen = analysis.feature_size(rows=rows)
     assert np.array_equal(chosen, every[[7, 10, 0, 7, 1499]])
     assert len(analysis.feature_size(rows=rows[:0])) == 0
-
-
-@pytest.mark.parametrize("exponent", [-40, 30])
-def test_scale_by_a_power_of_two_changes_no_bit(medial, exponent):
-    for points in (CASES["ellipsoid"], CASES["graded"]):
-        plain, scaled = analysis_of(medial, points), analysis_of(medial, points * 2.0**exponent)
-        assert np.array_equal(plain.feature_size() * 2.0**exponent, scaled.feature_size())
-        assert np.array_equal(plain.spacing * 2.0**exponent, scaled.spacing)
-
-
-def test_thinning_leaves_few_of_many(medial):
-    """Where vertices lie dense, more of them are selected than the thinning keeps; the result stays within it."""
-    shape = SHAPES["ellipsoid"]
-    analysis = analysis_of(medial, shape.random_sample(60_000, 0))
-    points, vertices = shape.random_sample(60_000, 0), analysis.extract().vertices
-    wanted = cKDTree(vertices).query(points[analysis.samples])[0]
-    ratio = analysis.feature_size() / wanted
-    assert 1 + 1e-6 < ratio.max() <= 1 + THINNING and ratio.min() > 1 - 1e-9
 
 
 @pytest.mark.parametrize(

@@ -63,3 +63,14 @@ def test_the_shares_of_noisy_samples_in_the_readme():
         for row in csv.DictReader(file):
             right[row["noise"]] += int(row["right, prepared"])
     assert [int(number) for number in said] == list(right.values())
+
+
+def test_the_cost_of_a_click_in_the_readme():
+    """The README has the most processor seconds for each 100,000 vertices, by the table of the laboratory."""
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    said = re.search(r"up to (\d+) seconds of one processor core for each 100,000", readme)[1]
+    with open(ROOT / "docs" / "lab" / "performance_clicks.csv", encoding="utf-8") as file:
+        costs = [
+            float(row["processor seconds"]) / float(row["vertices"]) for row in csv.DictReader(file)
+        ]
+    assert int(said) == math.ceil(1e5 * max(costs))

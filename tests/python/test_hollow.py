@@ -21,8 +21,8 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support import topology
 from support.crossing_triangles import crossing_pairs
 from support.distance import to_triangle
-from support.meshes import icosphere, read, torus, write_off
-from support.thick_meshes import block, joined
+from support.meshes import icosphere, join, read, torus, write_off
+from support.thick_meshes import block
 from support.thin_solids import turned, union
 
 
@@ -164,7 +164,7 @@ def test_two_rooms_are_told():
 def test_a_wall_round_a_cavity_lies_loose_in_one_space():
     """A box in a box with a wall of 0.3: two walls of 0.1, and one space between them."""
     outer, inner = block(1.0, 1.0, 1.0), block(0.4, 0.4, 0.4)
-    found = hollowed(joined(outer, (inner[0], inner[1][:, ::-1])), 0.1, voxel_size=0.05)
+    found = hollowed(join(outer, (inner[0], inner[1][:, ::-1])), 0.1, voxel_size=0.05)
     assert (found.cavities, found.loose) == (1, 1)
     (said,) = found.warnings
     assert "lie loose in the hollow, 1 in all" in said

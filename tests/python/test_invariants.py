@@ -247,22 +247,6 @@ def test_umbrellas_of_dense_closed_samples_are_discs(study, name, chi):
     assert len(triangles) / len(points) == pytest.approx(6 * (1 - chi / len(points)), rel=3e-3)
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_umbrellas_are_never_empty(study, seed):
-    points = np.random.default_rng(seed).random((5 + 40 * seed, 3))
-    offsets, _ = study.umbrellas(points)
-    assert (np.diff(offsets) > 0).all()
-
-
-def test_umbrella_edges_have_angle_zero_and_ratio_below_two(study):
-    points = shapes.SHAPES["ellipsoid"].sample(2000, 4)
-    analysis = study.MedialAnalysis(points)
-    _, triangles = study.umbrellas(points)
-    own = {(min(p, x), max(p, x)) for p, a, b in triangles.tolist() for x in (a, b)}
-    rows = np.array([tuple(edge) in own for edge in analysis.edges.tolist()])
-    assert analysis.theta_both[rows].max() < 1e-14 and analysis.rho_both[rows].max() < 2 + 1e-12
-
-
 def test_a_cosphere_gives_a_point_and_does_not_crash(medial):
     for points in (
         meshes.uv_sphere()[0],

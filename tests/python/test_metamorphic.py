@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Changes of the input or the thresholds whose effect on the output is known exactly."""
 
-import itertools
-
 import numpy as np
 import pytest
 from support import inputs, meshes, shapes
@@ -65,24 +63,10 @@ def facets(mesh):
     return dict(zip(map(tuple, mesh.generators.tolist()), np.diff(mesh.face_offsets).tolist()))
 
 
-def test_the_same_input_gives_the_same_bytes(medial, any_points):
-    assert_same_bytes(
-        everything(medial.MedialAnalysis(any_points)), everything(medial.MedialAnalysis(any_points))
-    )
-
-
 @pytest.mark.parametrize("threads", [2, 3, 7, 0])
 def test_thread_count_changes_no_byte(medial, any_points, threads):
     one = everything(medial.MedialAnalysis(any_points, threads=1))
     assert_same_bytes(one, everything(medial.MedialAnalysis(any_points, threads=threads)))
-
-
-def test_thread_count_changes_no_byte_of_sides(medial):
-    mesh = meshes.jitter(meshes.nested_shell(3), 1e-3)
-    one, two = (
-        everything(medial.MedialAnalysis(*mesh, threads=n, bounding_sphere=True)) for n in (1, 2)
-    )
-    assert_same_bytes(one, two)
 
 
 @pytest.mark.parametrize("exponent", [-30, -1, 1, 40])
@@ -206,72 +190,6 @@ def inner_area(mesh, reach=2.0):
     return total
 
 
-def test_selection_falls_with_theta_and_rho(medial, points):
-    analysis = medial.MedialAnalysis(points)
-    for rule in (medial.Rule.EITHER, medial.Rule.BOTH):
-        by_theta = [
-            set(analysis.select(t, 8.0, rule=rule).tolist()) for t in np.linspace(0, np.pi / 2, 9)
-        ]
-        by_rho = [
-            set(analysis.select(0.4, r, rule=rule).tolist()) for r in (0, 1, 2, 4, 8, 16, 64, 1e9)
-        ]
-        for sets in (by_theta, by_rho):
-            assert all(a >= b for a, b in itertools.pairwise(sets)) and len(sets[0]) > len(sets[-1])
-
-
-def test_facets_are_those_of_select(medial, any_points):
-    """extract is select without what is unbounded or has no area; tight thresholds give a subset of the polygons."""
-    analysis = medial.MedialAnalysis(any_points)
-    loose, tight = facets(analysis.extract(0.2, 4.0)), facets(analysis.extract(0.6, 12.0))
-    chosen = set(map(tuple, analysis.edges[analysis.select(0.2, 4.0)].tolist()))
-    assert tight.items() <= loose.items() and loose.keys() <= chosen
-
-
-@pytest.mark.parametrize("rule", ["EITHER", "BOTH"])
-def test_union_of_angle_and_ratio(medial, any_points, rule):
-    analysis = medial.MedialAnalysis(any_points)
-    angle, ratio, union = (
-        analysis.select(rule=getattr(medial.Rule, rule), criteria=criteria)
-        for criteria in (
-            medial.Criteria.ANGLE,
-            medial.Criteria.RATIO,
-            medial.Criteria.ANGLE_OR_RATIO,
-        )
-    )
-    assert np.array_equal(np.union1d(angle, ratio), union)
-
-
-def test_both_ends_select_a_subset_of_either_end(medial, any_points):
-    analysis = medial.MedialAnalysis(any_points)
-    for criteria in (medial.Criteria.ANGLE, medial.Criteria.RATIO, medial.Criteria.ANGLE_OR_RATIO):
-        both, either = (
-            analysis.select(rule=r, criteria=criteria)
-            for r in (medial.Rule.BOTH, medial.Rule.EITHER)
-        )
-        assert set(both.tolist()) <= set(either.tolist())
-    assert (analysis.theta_both <= analysis.theta).all() and (
-        analysis.rho_both <= analysis.rho
-    ).all()
-
-
-def test_limit_set_drops_only_facets_of_the_ratio_condition(medial, points):
-    analysis = medial.MedialAnalysis(points)
-    angle = set(analysis.select(criteria=medial.Criteria.ANGLE).tolist())
-    plain, limited = (set(analysis.select(limit_set=x).tolist()) for x in (False, True))
-    assert angle <= limited <= plain
-
-
-def test_limit_set_removes_fins_of_a_tube(medial):
-    capsule = shapes.SHAPES["capsule"]
-    analysis = medial.MedialAnalysis(capsule.sample(16000, 0))
-    plain, limited = (analysis.select(limit_set=x) for x in (False, True))
-    assert len(limited) < 0.95 * len(plain)
-    middle = [
-        np.linalg.norm(analysis.extract(limit_set=x).vertices[:, 1:], axis=1) for x in (False, True)
-    ]
-    assert np.mean(middle[1]) < np.mean(middle[0])
-
-
 @pytest.mark.parametrize("name", ["torus", "knot"])
 def test_limit_set_leaves_tubes_of_8000_samples_as_they_are(medial, name):
     """It acts on dense samples only, as the README and the panel say."""
@@ -302,16 +220,6 @@ def test_duplicates_are_merged_and_counted(medial, points):
     assert_same_bytes(
         everything(plain) | {"counts": np.zeros(1)}, everything(merged) | {"counts": np.zeros(1)}
     )
-
-
-def test_the_first_of_equal_rows_is_the_sample(study, points):
-    repeated = np.repeat(points, 2, axis=0)
-    repeated[0::2] += 0.0
-    analysis = study.MedialAnalysis(repeated)
-    assert np.array_equal(analysis.samples, np.arange(0, len(repeated), 2))
-    assert np.array_equal(analysis.edges, 2 * study.MedialAnalysis(points).edges)
-    vectors, _ = study.poles(repeated)
-    assert len(vectors) == len(points)
 
 
 def test_negative_zero_is_zero(medial):

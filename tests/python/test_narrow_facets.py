@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support import inputs, reference
+from support import inputs, meshes, reference
 
 from tests.support.fuzz import repeats
 
@@ -27,18 +27,11 @@ def turned(points, seed):
     return inputs.turned(points, *quaternion).astype(np.float32).astype(np.float64)
 
 
-def torus(around=24, across=8):
-    u, v = np.meshgrid(*(np.arange(n) * 2 * np.pi / n for n in (around, across)))
-    out = 1 + 0.4 * np.cos(v)
-    rows = np.stack((out * np.cos(u), out * np.sin(u), 0.4 * np.sin(v)), -1)
-    return rows.reshape(-1, 3).astype(np.float32).astype(np.float64)
-
-
 CASES = {
     **{f"box {seed}": turned(grid_of_a_box((1, 1, 1), (5, 5, 5)), seed) for seed in range(4)},
     "long box": turned(grid_of_a_box((3, 1, 1), (8, 3, 3)), 7),
     "slab": turned(grid_of_a_box((1, 1, 1e-6), (8, 8, 1)), 8),
-    "torus": torus(),
+    "torus": meshes.torus(1.0, 0.4, 24, 8)[0].astype(np.float32).astype(np.float64),
 }
 
 
@@ -60,7 +53,7 @@ def assert_all_with_a_width(study, points):
     """Judged by exact centres; the reference shares no code with the product."""
     cells = study.delaunay(points)[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
-    expected = reference.Medial(points, cells)
+    expected = reference.Voronoi(points, cells)
     analysis = study.MedialAnalysis(points, sides=study.SidesFrom.NONE)
     mesh, chosen = analysis.extract(0.0, 0.0), analysis.select(0.0, 0.0)
     there = set(map(tuple, mesh.generators.tolist()))

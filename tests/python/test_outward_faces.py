@@ -23,12 +23,8 @@ def cube(corner=(0.0, 0.0, 0.0), size=1.0):
 
 
 def grid(count):
-    x, y = np.meshgrid(np.linspace(0, 1, count), np.linspace(0, 1, count), indexing="ij")
-    points = np.column_stack((x.ravel(), y.ravel(), np.zeros(count * count)))
-    at = np.arange(count * count).reshape(count, count)
-    a, b, c, d = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
-    halves = (np.stack(corners, -1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d)))
-    return points, np.concatenate(list(halves)).astype(np.int32)
+    flat, triangles = meshes.rectangle(count - 1, count - 1)
+    return np.column_stack(((flat + 1) / 2, np.zeros(count * count))), triangles
 
 
 def inward(mesh):

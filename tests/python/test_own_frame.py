@@ -29,8 +29,8 @@ from medial_axis.core.settings import (
 from medial_axis.core.shape.own_frame import in_own_frame, own_origin
 from medial_axis.core.shape.shape import Shape
 from support.distance import to_triangles
-from support.meshes import box, icosphere
-from support.thick_meshes import block, joined, lathe
+from support.meshes import box, icosphere, join
+from support.thick_meshes import block, lathe
 from support.thin_solids import union
 
 DIRECTION = np.array([1.0, -2.0, 3.0])
@@ -50,7 +50,7 @@ def solids():
         "tube": (lathe([(0.4, 0.0), (0.4, 0.8), (0.34, 0.8), (0.34, 0.0)], 24), 0.06),
         "turned": (lathe([(0.0, 0.0), (0.4, 0.0), (0.5, 0.3), (0.2, 0.6), (0.0, 0.6)], 32), 0.0),
         "profile": (union(((0, 0, 0), (1, 0.5, 0.1)), ((0, 0, 0), (0.1, 0.5, 0.6))), 0.1),
-        "hollow box": (joined(block(0.8, 0.6, 0.5), (inner[0], inner[1][:, ::-1])), 0.1),
+        "hollow box": (join(block(0.8, 0.6, 0.5), (inner[0], inner[1][:, ::-1])), 0.1),
     }
 
 

@@ -15,7 +15,7 @@ from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode
 from medial_axis.core.shape.shape import Shape
-from support import thin_solids
+from support import meshes, thin_solids
 from support.readers import area_of
 from support.thick_meshes import shell
 
@@ -239,13 +239,7 @@ def test_the_second_pass_in_pairs_is_denser_where_it_has_to_be(
 
 def pipe(sides, wall):
     """A pipe of radius 1 with flat ends."""
-    turn, i = 2 * np.pi * np.arange(sides) / sides, np.arange(sides)
-    rings = [(1.0, 0.0), (1.0, 12.0), (1.0 - wall, 12.0), (1.0 - wall, 0.0)]
-    points = [np.c_[r * np.cos(turn), r * np.sin(turn), np.full(sides, z)] for r, z in rings]
-    a, b = (np.arange(4)[:, None] * sides + k for k in (i, (i + 1) % sides))
-    c, d = np.roll(b, -1, axis=0), np.roll(a, -1, axis=0)
-    faces = np.concatenate((np.stack((a, b, c), -1), np.stack((a, c, d), -1)))
-    return np.concatenate(points), faces.reshape(-1, 3).astype(np.int32)
+    return meshes.revolved([(1.0, 0.0), (1.0, 12.0), (1.0 - wall, 12.0), (1.0 - wall, 0.0)], sides)
 
 
 @pytest.mark.parametrize("sides, wall", [(13, 0.05), (15, 0.04), (18, 0.02), (24, 0.01)])

@@ -55,12 +55,15 @@ def solid_triangles(medial, scale, **options):
     return {"triangles": analysis_of(medial, scale, **options).solid_triangles()}
 
 
+VALUES = ("facet_sheet", "facet_spacings", "facet_spike", "vertex_erosion", "vertex_limb")
+VALUES = (*VALUES, "edges", "cells")
+
+
 def hierarchy(medial, scale, progress=None, **options):
     """The values of a hierarchy, and its level that is smoothed."""
     found = analysis_of(medial, scale, "slab", 3000, **options).hierarchy(progress=progress)
-    values = ("facet_sheet", "facet_spacings", "vertex_erosion", "vertex_limb", "edges", "cells")
     level = found.extract(sheet=np.inf, relaxed=True, round_limbs=True, progress=progress)
-    return named(found, values) | named(level, ("vertices", "radius", "exact", "wires"))
+    return named(found, VALUES) | named(level, ("vertices", "radius", "exact", "wires"))
 
 
 def tight_cocone(medial, scale, **options):
@@ -166,8 +169,7 @@ STAGES = {
     "solid triangles": Stage(solid_triangles, {"triangles": 0}),
     "hierarchy": Stage(
         hierarchy,
-        {"facet_sheet": 0, "facet_spacings": 0, "vertex_erosion": 0, "vertex_limb": 0, "edges": 0}
-        | {"cells": 0, "wires": 0, "vertices": 1, "radius": 1, "exact": 1},
+        dict.fromkeys((*VALUES, "wires"), 0) | dict.fromkeys(("vertices", "radius", "exact"), 1),
     ),
     "tight cocone": Stage(tight_cocone, {"triangles": 0, "flat": 0, "good": 0, "on_surface": 0}),
     "samples": Stage(samples, {"points": 1, "kind": 0, "triangle": 0}),

@@ -14,6 +14,7 @@ from medial_axis.core.robot.primitive_meshes import ball_mesh, box_mesh, cylinde
 from medial_axis.core.robot.robot_file import read_robot
 from medial_axis.core.robot.xml_spans import elements_of
 from medial_axis.core.shape.shape import Shape
+from support.distance import points_on_triangles
 from support.meshes import torus, write_off
 from support.thick_meshes import block
 
@@ -92,13 +93,6 @@ def away(link, places):
     return least
 
 
-def on_surface(points, triangles, count=3000):
-    random = np.random.default_rng(0)
-    weights = random.dirichlet((1, 1, 1), count)
-    rows = random.integers(len(triangles), size=count)
-    return (weights[:, :, None] * points[triangles[rows]]).sum(axis=1)
-
-
 @pytest.mark.parametrize("words", [("--capsules", "1"), ("--balls", "12")])
 def test_every_link_is_held(arm, tmp_path, words, capsys):
     out = tmp_path / "out.urdf"
@@ -110,7 +104,12 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
             assert told["count"] == 0 and not told["problem"], "a sphere stays"
             continue
         assert 1 <= told["count"] <= int(words[1])
-        gap = away(links[geometry.name], on_surface(geometry.points, geometry.triangles))
+        gap = away(
+            links[geometry.name],
+            points_on_triangles(
+                geometry.points[geometry.triangles], 3000, np.random.default_rng(0)
+            ),
+        )
         assert gap.max() <= 1e-9 and told["farthest"] > 0.0 and told["volume"] > 0.0
     assert report["links_left"] == []
     if "--capsules" in words:  # the least capsule of the box that was found has this volume

@@ -231,32 +231,11 @@ def test_vertices_that_are_not_valid(medial, vertices, triangles, word):
         medial.MedialAnalysis(ALL["sphere"][0], triangles, vertices=vertices)
 
 
-@pytest.mark.parametrize("name", ALL)
-def test_no_inner_vertex_is_outside(medial, name):
-    points, triangles = ALL[name]
-    mesh = analyse(medial, points, triangles).extract(0.0, 0.0, medial.Side.INNER)
-    assert (mesh.side == 1).all()
-    assert_inside(mesh.vertices, mesh.radius, points, triangles)
-
-
 def assert_inside(vertices, radius, points, triangles):
     """Winding number > 1/2, or on the surface itself."""
     bad = reference.winding_number(vertices, points, triangles) <= 0.5
     if bad.any():
         assert (distance.to_triangles(vertices[bad], points[triangles]) <= 1e-6 * radius[bad]).all()
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_side_filters_by_the_side_array(medial, name):
-    analysis = analyse(medial, *ALL[name])
-    every = analysis.select()
-    for side, value in ((medial.Side.INNER, 1), (medial.Side.OUTER, 2)):
-        chosen = analysis.select(side=side)
-        assert np.array_equal(chosen, every[analysis.side[every] == value])
-        mesh = analysis.extract(side=side)
-        assert (mesh.side == value).all()
-    mesh = analysis.extract()
-    assert len(mesh.generators) + mesh.unbounded + mesh.zero_area == len(every)
 
 
 @pytest.mark.parametrize("name", ALL)

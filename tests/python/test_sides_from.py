@@ -2,13 +2,11 @@
 """Tests of the source of inside and outside: the rule of AUTOMATIC, the vote of normals, and all errors."""
 
 import re
-import threading
-import time
 
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from support import inputs, meshes, rings
+from support import meshes, rings
 from support.shapes import SHAPES
 from support.solids import SOLIDS
 
@@ -144,16 +142,11 @@ def test_normals_of_repeated_rows(medial):
 
 
 @pytest.mark.parametrize("sphere", [False, True])
-def test_threads_and_order_change_nothing(medial, sphere):
+def test_order_changes_nothing(medial, sphere):
     points = SHAPES["knot"].sample(3000, 1)
     normals, order = SHAPES["knot"].normals(points), np.random.default_rng(1).permutation(3000)
     order = order[order < len(points)]
-    plain = analysis_of(medial, points, normals=normals, bounding_sphere=sphere, threads=1)
-    for threads in (2, 3):
-        again = analysis_of(
-            medial, points, normals=normals, bounding_sphere=sphere, threads=threads
-        )
-        assert again.side.tobytes() == plain.side.tobytes()
+    plain = analysis_of(medial, points, normals=normals, bounding_sphere=sphere)
     mixed = analysis_of(medial, points[order], normals=normals[order], bounding_sphere=sphere)
     edges = np.sort(order[mixed.edges], axis=1)
     row = np.lexsort(edges.T[::-1])
@@ -302,71 +295,6 @@ def test_every_option_has_an_effect(medial, options):
     assert figures(plain) != figures(other)
     analysis = analysis_of(medial, points, sides="TIGHT_COCONE", cocone=changed)
     assert figures(analysis.tight_cocone) == figures(other)
-
-
-# ---- cancelling
-
-
-@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
-@pytest.mark.parametrize("when", [0.02, 0.7, 0.92])
-def test_cancel_from_another_thread(medial, call, when):
-    points = SHAPES["torus"].random_sample(30_000, 0)
-    progress, raised = medial.Progress(), []
-
-    def compute():
-        try:
-            raised.append(getattr(medial, call)(points, progress=progress))
-        except medial.Cancelled as error:
-            raised.append(error)
-
-    worker = threading.Thread(target=compute)
-    worker.start()
-    while worker.is_alive() and progress.fraction < when:
-        time.sleep(0.0005)
-    progress.cancel()
-    worker.join(60)
-    assert isinstance(raised[0], medial.Cancelled) and 0 <= progress.fraction < 1
-
-
-@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
-def test_progress_rises_to_one_and_names_its_stages(medial, call):
-    points = SHAPES["torus"].random_sample(30_000, 0)
-    progress, seen = medial.Progress(), []
-    worker = threading.Thread(target=lambda: getattr(medial, call)(points, progress=progress))
-    worker.start()
-    while worker.is_alive():
-        seen.append((progress.fraction, progress.stage))
-        time.sleep(0.001)
-    fractions, stages = [x for x, _ in seen], {x for _, x in seen}
-    assert fractions == sorted(fractions) and progress.fraction == 1.0
-    assert "Delaunay triangulation" in stages and any("ocone" in stage for stage in stages)
-
-
-# ---- the points of `TightCocone` and `cocone` are those of `MedialAnalysis`
-
-
-@pytest.mark.parametrize("call", ["TightCocone", "cocone"])
-@pytest.mark.parametrize(
-    "points",
-    [CLOUD[:, :2], CLOUD.ravel(), CLOUD.astype(int), with_value(np.nan), with_value(np.inf)],
-    ids=["two columns", "flat", "int", "nan", "inf"],
-)
-def test_points_that_are_not_valid(study, call, points):
-    with pytest.raises(study.InvalidInputError) as error:
-        getattr(study, call)(points)
-    one_sentence(error)
-
-
-@pytest.mark.parametrize("call", ["TightCocone", "cocone"])
-@pytest.mark.parametrize(
-    "points",
-    [CLOUD[:0], CLOUD[:3], np.ones((9, 3)), inputs.grid((5, 5, 1)), inputs.grid((9, 1, 1))],
-    ids=["none", "three", "identical", "plane", "line"],
-)
-def test_points_without_volume(study, call, points):
-    with pytest.raises(study.DegenerateInputError) as error:
-        getattr(study, call)(points)
-    one_sentence(error)
 
 
 def test_normals_say_nothing_beyond_the_samples(medial):

@@ -33,7 +33,7 @@ from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
-from support import meshes, tubes
+from support import meshes, swept, tubes
 from support.poses import posed, random_turns, turn
 
 pytestmark = pytest.mark.oracle
@@ -282,21 +282,8 @@ def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
 
 
 def rod(around=24, along=31):
-    turn = np.linspace(0.0, 2 * np.pi, around, endpoint=False)
-    side = np.column_stack((np.zeros(around), 0.2 * np.cos(turn), 0.2 * np.sin(turn)))
-    rings = [side + np.array([x, 0.0, 0.0]) for x in np.linspace(-1.0, 1.0, along)]
-    points = np.concatenate((*rings, [(-1.0, 0, 0), (1.0, 0, 0)]))
-    k = np.arange(around)
-    after, last = (k + 1) % around, around * (along - 1)
-    triangles = []
-    for a in range(0, last, around):
-        b = a + around
-        triangles += [np.column_stack((a + k, a + after, b + after))]
-        triangles += [np.column_stack((a + k, b + after, b + k))]
-    middle = len(points) - 2
-    triangles += [np.column_stack((np.full(around, middle), after, k))]
-    triangles += [np.column_stack((np.full(around, middle + 1), last + k, last + after))]
-    return points, np.concatenate(triangles).astype(np.int32)
+    line, ones = np.linspace((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), along), np.ones((along, 1))
+    return swept.swept(line, ones * (0.0, 0.2, 0.0), ones * (0.0, 0.0, 0.2), around)
 
 
 # --- symmetry

@@ -7,6 +7,7 @@ import pytest
 from medial_axis.core.axis.levels import hierarchy_of
 from support import measure
 from support.levels import betti_of_mesh
+from support.plates import prism
 from support.thick_meshes import block
 
 TAB = 0.15  # half of its width
@@ -15,19 +16,11 @@ TAB = 0.15  # half of its width
 @pytest.fixture(scope="module")
 def tabbed():
     """A plate of 4 by 4 with a tab of 2 by 0.3 at its rim."""
-    x = np.array([-2.0, 2.0, 4.0])
-    y = np.array([-2.0, -TAB, TAB, 2.0])
-    outline = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[2], y[1])]
-    outline += [(x[2], y[2]), (x[1], y[2]), (x[1], y[3]), (x[0], y[3])]
-    flat = np.array(outline)
-    n = len(flat)
-    points = np.concatenate([np.column_stack((flat, np.full(n, z))) for z in (-0.05, 0.05)])
+    outline = [(-2.0, -2.0), (2.0, -2.0), (2.0, -TAB), (4.0, -TAB)]
+    outline += [(x, -y) for x, y in outline[::-1]]
     caps = [(0, 1, 6), (0, 6, 7), (1, 2, 5), (1, 5, 6), (2, 3, 4), (2, 4, 5)]
-    faces = [(a + n, b + n, c + n) for a, b, c in caps] + [(c, b, a) for a, b, c in caps]
-    for i in range(n):
-        j = (i + 1) % n
-        faces += [(i, j, j + n), (i, j + n, i + n)]
-    return points, np.array(faces, np.int32)
+    points, triangles = prism(outline, caps, 0.1)
+    return points - (0.0, 0.0, 0.05), triangles
 
 
 def shown(shape, **settings):
@@ -70,17 +63,6 @@ def test_levels_are_nested_and_zero_changes_nothing(tabbed):
         assert (hierarchy.facet_spike[level.facet_of] > spike).all()
         before = level
     assert len(before.facet_of) < len(same.facet_of)
-
-
-def test_any_number_of_threads_gives_the_same_values(tabbed, medial):
-    points = shown(tabbed)[0].chosen.samples.points
-    one, three = (
-        medial.MedialAnalysis(points, tabbed[1], vertices=tabbed[0], threads=n)
-        .hierarchy()
-        .facet_spike
-        for n in (1, 3)
-    )
-    assert np.array_equal(one, three) and np.isfinite(one).all() and one.max() > 0.1
 
 
 @pytest.mark.parametrize("spike", [0.005, 0.02, 0.1])

@@ -28,8 +28,8 @@ from medial_axis.core.thickness.thin_in_part import subdivided
 from medial_axis.core.thickness.thin_parts import Patch, ThinParts
 from scipy.spatial import cKDTree
 from support import thin_solids, topology
-from support.meshes import read, write_off
-from support.thick_meshes import block, ellipsoid, joined, shell
+from support.meshes import join, read, write_off
+from support.thick_meshes import block, ellipsoid, shell
 from support.thin_solids import turned, union
 
 pytestmark = pytest.mark.oracle
@@ -155,14 +155,14 @@ def spike_over_a_plate():
     points, triangles = block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01))
     spike = np.array([[0.93, 0.93, 0.022], [0.95, 0.93, 0.5], [0.92, 0.95, 0.5], [0.91, 0.91, 0.5]])
     sides = np.array([[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]])
-    return joined((points, triangles), (spike, sides))
+    return join((points, triangles), (spike, sides))
 
 
 def test_faces_never_pass_through_each_other():
     """The middle of the large triangle has no gap, so only the faces afterwards tell."""
     blade = block(0.01, 0.6, 0.47, (0.405, 0.5, 0.265))
     plate = block(1.0, 1.0, 0.02, (0.5, 0.5, 0.01))
-    for mesh, gap in ((spike_over_a_plate(), 0.002), (joined(plate, blade), 0.01)):
+    for mesh, gap in ((spike_over_a_plate(), 0.002), (join(plate, blade), 0.01)):
         found = thickened(mesh, 0.1)
         assert found.gap == pytest.approx(gap, rel=1e-6)
         assert any(f"across gaps down to {gap:.3g}," in text for text in found.warnings)

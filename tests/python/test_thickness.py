@@ -23,24 +23,24 @@ from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
 from medial_axis.core.thickness.write_thickness import export_thickness
-from support import inputs, meshes
+from support import inputs, meshes, thin_solids
+from support.meshes import join
 from support.plates import prism
 from support.thick_meshes import (
     block,
     ellipsoid,
-    joined,
     lathe,
     rays,
     shell,
     shrinking_ball,
-    stairs,
 )
 
 pytestmark = pytest.mark.oracle
 
 EVEN = Settings(sampling=SamplingMode.SURFACE)
 BOX = block(1.0, 0.7, 0.4)
-GAP = joined(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))
+STAIRS = thin_solids.union(*(((k, 0, 0), (k + 1, 1, 0.1 * (k + 1))) for k in range(3)))
+GAP = join(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))
 
 
 def shape_of(mesh, normals=None):
@@ -322,9 +322,7 @@ def test_no_small_cavity_is_overlooked_in_a_ball(deep):
     outer, cavity = meshes.icosphere(4), meshes.icosphere(2)
     places, radius = deep * np.array([(0.6, 0.64, 0.48), (-0.48, 0.6, -0.64)]), 0.03
     voids = [(radius * cavity[0] + place, cavity[1][:, ::-1]) for place in places]
-    found = measure(
-        joined(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
-    )
+    found = measure(join(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
     away = outer[0][:, None] - places
     square, height = (away**2).sum(axis=2), (away * outer[0][:, None]).sum(axis=2)
     with np.errstate(divide="ignore"):
@@ -362,7 +360,7 @@ def test_faces_are_cut_alike_on_both_sides_of_every_edge():
 
 
 def test_stairs_against_rays():
-    mesh = stairs()
+    mesh = STAIRS
     found = measure(mesh, Settings())
     assert found.chosen.gaps == 0 and found.shape.volume == pytest.approx(0.6)
     x, z = found.points[:, 0], found.points[:, 2]
@@ -407,7 +405,7 @@ def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
 
 
 def test_a_fin_does_not_make_what_it_stands_on_thin():
-    mesh = joined(block(1, 1, 1), block(0.03, 0.8, 0.5, (0.0, 0.0, 0.749)))
+    mesh = join(block(1, 1, 1), block(0.03, 0.8, 0.5, (0.0, 0.0, 0.749)))
     found = measure(mesh, Settings(samples=30_000))
     of_block = np.abs(found.points[:, 2] + 0.5) < 1e-9
     assert np.percentile(found.lengths[of_block], 1) > 0.95
@@ -482,7 +480,7 @@ def test_faces_are_thin_where_their_samples_are():
 
 
 def test_patches_come_thinnest_first_and_small_ones_can_be_left_out():
-    mesh = joined(
+    mesh = join(
         block(1, 1, 0.2), block(0.5, 0.5, 0.05, (3, 0, 0)), block(0.2, 0.2, 0.03, (5, 0, 0))
     )
     found = measure(mesh, Settings(samples=60_000))
@@ -504,7 +502,7 @@ def test_grey_leaves_out_what_no_wall_faces():
 
 def test_more_limits_need_no_other_measurement():
     """Areas grow with the limit; what is thin at a limit is so at a larger one."""
-    found = measure(stairs(), Settings())
+    found = measure(STAIRS, Settings())
     parts = [find_thin_parts(found, limit) for limit in (0.05, 0.15, 0.25, 0.35)]
     assert np.all(np.diff([p.area for p in parts]) > 0)
     assert parts[-1].share == pytest.approx(1.0, abs=1e-3)

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from support import inputs, meshes, rings, topology
+from support import inputs, meshes, topology
 from support.shapes import SHAPES
 from support.solids import SOLIDS, Filled
 
@@ -99,11 +99,6 @@ def test_triangles_face_outward_and_enclose_the_volume(surface_of, name, n):
     assert topology.volume(points, surface_of(name, n).triangles) == pytest.approx(exact, rel=0.05)
 
 
-@pytest.mark.parametrize("name, n", CASES)
-def test_triangles_lie_between_inner_and_outer_cells(study, surface_of, name, n):
-    assert_between_inner_and_outer_cells(study, samples(name, n), surface_of(name, n))
-
-
 def far_cells(study, points, shape):
     """Rows of finite cells whose Voronoi vertex is farther from the surface than the samples there from each other."""
     cells, _, centres = study.delaunay(points)
@@ -129,32 +124,7 @@ def test_dense_smooth_samples_are_flat_and_good(surface_of, name, n):
     assert surface.flat.mean() > 0.98 and surface.good.mean() > 0.98
 
 
-@pytest.mark.parametrize("name, n", CASES)
-def test_flat_samples_are_those_of_cocone(study, surface_of, name, n):
-    assert np.array_equal(surface_of(name, n).flat, study.cocone(samples(name, n))[1])
-
-
 # ---- the same inside for the medial axis
-
-
-@pytest.mark.parametrize("name, n", CASES)
-def test_facets_are_inner_where_all_cells_and_voronoi_vertices_are(study, surface_of, name, n):
-    """A flat cell beneath the surface may have its Voronoi vertex outside: its facets are not inner."""
-    points, surface = samples(name, n), surface_of(name, n)
-    analysis = study.MedialAnalysis(points, sides=study.SidesFrom.TIGHT_COCONE)
-    cells, _, centres = study.delaunay(points)
-    solid = surface.cell_side == int(study.Side.INNER)
-    outside = np.zeros(len(cells), bool)
-    outside[solid] = ~SOLIDS[name].shape.inside(centres[solid])
-    edges, by_cells = rings.facet_sides(cells, solid)
-    _, by_both = rings.facet_sides(cells, solid & ~outside)
-    inner = int(study.Side.INNER)
-    assert np.array_equal(edges, analysis.edges)
-    assert (by_cells[analysis.side == inner] == inner).all()
-    differ = (analysis.side == inner) != (
-        by_both == inner
-    )  # centres within rounding of the surface
-    assert (by_both == inner).sum() > 500 and differ.mean() < 0.002
 
 
 @pytest.mark.parametrize("name, n", CASES)
@@ -355,19 +325,6 @@ def test_very_few_points(study, points):
     surface = study.TightCocone(points)
     assert_watertight(points, surface)
     assert_between_inner_and_outer_cells(study, points, surface)
-
-
-def test_nothing_enclosed_is_an_error_where_an_inside_is_needed(medial):
-    points = np.random.default_rng(0).random((6, 3))
-    analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
-    assert analysis.tight_cocone.inner_cells == 0 and len(analysis.tight_cocone.triangles) == 0
-    for side in (medial.Side.INNER, medial.Side.OUTER):
-        for call in (analysis.select, analysis.extract):
-            with pytest.raises(medial.DegenerateInputError) as error:
-                call(0.0, 0.0, side=side)
-            assert str(error.value).startswith("Expected ") and "found" in str(error.value)
-    assert len(analysis.select(0.0, 0.0)) > 0
-    assert np.isfinite(analysis.extract(0.0, 0.0).vertices).all()
 
 
 def noisy(name, spacings, seed):

@@ -10,8 +10,8 @@ from medial_axis.core.settings import SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.severe import Severe
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
-from support.meshes import torus
-from support.thick_meshes import block, ellipsoid, joined, lathe
+from support.meshes import join, torus
+from support.thick_meshes import block, ellipsoid, lathe
 
 NO_FACES = np.zeros((0, 3), np.int32)
 
@@ -23,7 +23,7 @@ def shape_of(mesh):
 def linked_tubes():
     """Two rings of few faces, one through the other."""
     points, triangles = torus(1.0, 0.25, 24, 8)
-    return joined((points, triangles), (points[:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), triangles))
+    return join((points, triangles), (points[:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), triangles))
 
 
 CUP = [(0.0, 0.0), (0.4, 0.0), (0.5, 1.0), (0.45, 1.0), (0.36, 0.05), (0.0, 0.05)]

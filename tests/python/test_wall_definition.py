@@ -12,7 +12,8 @@ from medial_axis.core.thickness.thicken import thicken
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
 from support import meshes
-from support.thick_meshes import block, joined, lathe, shell
+from support.meshes import join
+from support.thick_meshes import block, lathe, shell
 from support.wall_truth import slanted_plate, tube, turned, turned_part, walls
 
 pytestmark = pytest.mark.oracle
@@ -130,7 +131,7 @@ def test_a_pit_through_a_wall_is_its_minimum():
 
 @pytest.mark.parametrize("wide", [0.02, 0.1])
 def test_a_square_pin_is_seen(wide):
-    found = measure(joined(block(1, 1, 1), block(wide, wide, 0.5, (0.4, 0.4, 1.2))), Settings())
+    found = measure(join(block(1, 1, 1), block(wide, wide, 0.5, (0.4, 0.4, 1.2))), Settings())
     assert found.minimum == pytest.approx(wide, rel=1e-6)
 
 
@@ -159,7 +160,7 @@ def test_both_figures_are_reported(tmp_path, capsys):
     outline = np.array([(0.0, 0.0), (3.0, 0.0), slant])
     wedge = np.array([(x, y, z) for y in (0.0, 2.0) for x, z in outline])
     sides = [t for i, j in ((0, 1), (1, 2), (2, 0)) for t in ((i, i + 3, j + 3), (i, j + 3, j))]
-    mesh = joined((wedge, np.array([(0, 1, 2), (3, 5, 4), *sides])), block(4, 4, 1.26, (0, 8, 0)))
+    mesh = join((wedge, np.array([(0, 1, 2), (3, 5, 4), *sides])), block(4, 4, 1.26, (0, 8, 0)))
     meshes.write_off(tmp_path / "wedge.off", mesh)
     out = tmp_path / "wedge.json"
     cli.main(["thickness", str(tmp_path / "wedge.off"), str(out), "--limit", "1"])

@@ -13,7 +13,7 @@ from medial_axis.core.samples.density import Density
 from medial_axis.core.samples.sample_spacing import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
-from support import meshes
+from support import meshes, thin_solids
 
 from tests.support.fuzz import repeats
 
@@ -137,23 +137,9 @@ def test_a_thin_shell():
     assert computed(shell, SamplingMode.SURFACE).missed > 0.95
 
 
-def ring(radius, width, sides, around=64):
-    """A thin tube of so many flat sides along a circle."""
-    turn = np.arange(around) / around * 2 * np.pi
-    tube = (np.arange(sides) + 0.5) / sides * 2 * np.pi
-    out = radius + width * np.cos(tube)
-    x, y = (np.outer(f(turn), out).ravel() for f in (np.cos, np.sin))
-    z = np.tile(width * np.sin(tube), around)
-    i, j = np.meshgrid(np.arange(around), np.arange(sides), indexing="ij")
-    a, b = i * sides + j, (i + 1) % around * sides + j
-    c, d = (i + 1) % around * sides + (j + 1) % sides, i * sides + (j + 1) % sides
-    quads = [np.column_stack([x.ravel() for x in t]) for t in ((a, b, c), (a, c, d))]
-    return np.column_stack((x, y, z)), np.concatenate(quads).astype(np.int32)
-
-
 def test_two_linked_thin_tubes():
     """All of them is sharp; what is said of shares and of medians speaks of the same samples."""
-    one = ring(1.0, 0.008, 4)
+    one = meshes.torus(1.0, 0.008, 64, 4, turn=0.5)
     two = one[0][:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), one[1]
     found = computed(meshes.join(one, two), SamplingMode.SURFACE, samples=1000)
     assert said(found)
@@ -163,27 +149,11 @@ def test_two_linked_thin_tubes():
 
 def holed_block(along, across):
     """A flat block with a grid of square holes, so many along each side: a surface of genus along times across."""
-    ticks = np.arange(2 * along + 2) / along
     solid = np.ones((2 * along + 1, 2 * across + 1), bool)
     solid[1::2, 1::2] = False
-    quads = []
-    for i, j in np.argwhere(solid):
-        p, q, r, s = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-        quads += [[(*c, 1) for c in (p, q, r, s)], [(*c, 0) for c in (s, r, q, p)]]
-        for (di, dj), (a, b) in {
-            (-1, 0): (s, p),
-            (1, 0): (q, r),
-            (0, -1): (p, q),
-            (0, 1): (r, s),
-        }.items():
-            k, m = i + di, j + dj
-            if not (0 <= k < len(solid) and 0 <= m < len(solid[0]) and solid[k, m]):
-                quads.append([(*a, 0), (*b, 0), (*b, 1), (*a, 1)])
-    corners = np.array(quads).reshape(-1, 3)
-    rows, index = np.unique(corners, axis=0, return_inverse=True)
-    quad = index.reshape(-1, 4)
-    vertices = np.column_stack((ticks[rows[:, 0]], ticks[rows[:, 1]], 0.02 * rows[:, 2]))
-    return vertices, np.concatenate((quad[:, :3], quad[:, [0, 2, 3]])).astype(np.int32)
+    cells = np.argwhere(solid)
+    ends = np.dstack((cells, cells + 1)).transpose(0, 2, 1) / along
+    return thin_solids.union(*((((*low, 0.0), (*high, 0.02)) for low, high in ends)))
 
 
 def test_a_block_with_many_tunnels(medial):

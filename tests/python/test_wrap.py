@@ -15,12 +15,12 @@ from medial_axis.core.settings import (
 )
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
-from support.meshes import icosphere, write_off
-from support.thick_meshes import block, joined
+from support.meshes import icosphere, join, write_off
+from support.thick_meshes import block
 
 WIDTHS = [
     (Between.WALL, block(1.0, 0.7, 0.05), 0.05),
-    (Between.GAP, joined(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45))), 0.05),
+    (Between.GAP, join(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45))), 0.05),
 ]
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small point sets for the tests: hundreds in general position, and structured ones full of coincidences."""
 
-import itertools
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -55,30 +53,6 @@ def generic(kind: str, n: int, seed: int) -> Array:
         t = np.sort(rng.random(n)) * 12
         return np.column_stack((np.cos(t), np.sin(t), 0.2 * t)) + rng.normal(size=(n, 3)) * 0.01
     return shapes.SHAPES[kind].random_sample(n, seed) @ rotation(seed).T
-
-
-KINDS = (
-    "cube",
-    "gauss",
-    "clusters",
-    "graded",
-    "sheets",
-    "helix",
-    "ellipsoid",
-    "shell",
-    "torus",
-    "knot",
-)
-SIZES = (4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28, 32, 40, 50)
-
-
-def generic_cases() -> list[tuple[str, int, int]]:
-    """About 250 of (kind, n, seed): many small, some of 100, a few of 200 points."""
-    small = [(kind, n, seed) for seed, (kind, n) in enumerate(itertools.product(KINDS, SIZES))]
-    medium = [(kind, 100, seed) for kind in KINDS for seed in range(4)]
-    large = [(kind, 200, seed) for kind in KINDS for seed in range(2)]
-    tiny = [("cube", n, seed) for n in (4, 5, 6) for seed in range(100, 115)]
-    return small + medium + large + tiny
 
 
 def grid(counts: tuple[int, int, int]) -> Array:

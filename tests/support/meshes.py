@@ -84,6 +84,24 @@ def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
     return vertices, np.concatenate(triangles).astype(np.int32)
 
 
+def lattice(ids: NDArray[np.int64]) -> NDArray[np.int32]:
+    """(m, 3) two triangles for each square of a lattice of ids, which turn from its rows to its columns."""
+    a, b, c, d = ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]
+    halves = [np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
+    return np.concatenate(halves).astype(np.int32)
+
+
+def revolved(profile: list[tuple[float, float]], around: int) -> Mesh:
+    """A closed profile (rho, z), counter-clockwise where rho is to the right, turned round the z axis."""
+    turn = 2 * np.pi * np.arange(around) / around
+    rings = [
+        np.column_stack((rho * np.cos(turn), rho * np.sin(turn), np.full(around, z)))
+        for rho, z in profile
+    ]
+    ids = np.arange(len(profile) * around).reshape(-1, around)
+    return np.concatenate(rings), lattice(np.pad(ids, (0, 1), "wrap").T)
+
+
 def torus(
     big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 20, turn: float = 0.0
 ) -> Mesh:
@@ -94,14 +112,7 @@ def torus(
     )
     ring = big + small * np.cos(v)
     vertices = np.stack((ring * np.cos(u), ring * np.sin(u), small * np.sin(v)), -1).reshape(-1, 3)
-    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
-    k, l = (i + 1) % around, (j + 1) % across
-    a, b, c, d = (
-        x.ravel() for x in (i * across + j, k * across + j, k * across + l, i * across + l)
-    )
-    return vertices, np.concatenate(
-        (np.column_stack((a, b, c)), np.column_stack((a, c, d)))
-    ).astype(np.int32)
+    return vertices, lattice(np.pad(np.arange(u.size).reshape(u.shape), (0, 1), "wrap"))
 
 
 def lathe(profile: NDArray[np.float64], around: int = 64) -> Mesh:
@@ -137,11 +148,7 @@ def capsule(start: tuple, end: tuple, radius: float, around: int = 32) -> Mesh:
 def rectangle(along: int, across: int) -> Mesh:
     """(n, 2) vertices of a grid over |x| <= 1, |y| <= 1 and its triangles, counter-clockwise."""
     x, y = np.meshgrid(np.linspace(-1, 1, along + 1), np.linspace(-1, 1, across + 1), indexing="ij")
-    i, j = np.meshgrid(np.arange(along), np.arange(across), indexing="ij")
-    a = (i * (across + 1) + j).ravel()
-    b, c, d = a + across + 1, a + across + 2, a + 1
-    triangles = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
-    return np.column_stack((x.ravel(), y.ravel())), triangles.astype(np.int32)
+    return np.column_stack((x.ravel(), y.ravel())), lattice(np.arange(x.size).reshape(x.shape))
 
 
 def weld(mesh: Mesh) -> Mesh:

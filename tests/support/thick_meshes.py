@@ -6,7 +6,7 @@ Each judge is written from the definition and shares nothing with the add-on.
 
 import numpy as np
 
-from .meshes import Mesh, icosphere
+from .meshes import Mesh, icosphere, join
 
 _CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) - 0.5
 _FACES = np.array(
@@ -24,16 +24,9 @@ def block(x: float, y: float, z: float, centre: tuple = (0.0, 0.0, 0.0)) -> Mesh
     return _CORNERS * (x, y, z) + centre, _FACES
 
 
-def joined(*meshes: Mesh) -> Mesh:
-    """Several meshes as one."""
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in meshes)])
-    faces = [triangles + start for (_, triangles), start in zip(meshes, starts, strict=False)]
-    return np.vstack([vertices for vertices, _ in meshes]), np.vstack(faces).astype(np.int32)
-
-
 def shell(outer: float = 1.0, inner: float = 0.8, subdivisions: int = 4) -> Mesh:
     vertices, triangles = icosphere(subdivisions)
-    return joined((outer * vertices, triangles), (inner * vertices, triangles[:, ::-1]))
+    return join((outer * vertices, triangles), (inner * vertices, triangles[:, ::-1]))
 
 
 def ellipsoid(axes: tuple = (1.0, 0.7, 0.5), subdivisions: int = 5) -> Mesh:
@@ -61,36 +54,6 @@ def lathe(profile: list[tuple[float, float]], around: int = 96) -> Mesh:
         ]
     triangles.append(np.column_stack((last + i, last + j, np.full_like(i, len(vertices) - 1))))
     return vertices, np.vstack(triangles).astype(np.int32)
-
-
-def stairs(heights: tuple = (0.1, 0.2, 0.3), length: float = 1.0, width: float = 1.0) -> Mesh:
-    """A wedge of steps, along x."""
-    count = len(heights)
-    floor = [(k * length, 0.0) for k in range(count + 1)]
-    tops = [((k + d) * length, heights[k]) for k in range(count) for d in (0, 1)]
-    outline = np.array(floor + tops[::-1])
-    n = len(outline)
-    vertices = np.vstack(
-        [np.column_stack((outline[:, 0], np.full(n, y), outline[:, 1])) for y in (0.0, width)]
-    )
-    top = {point: n - 1 - k for k, point in enumerate(tops)}
-    front = []
-    for k in range(count):
-        a, b = k, k + 1
-        c, d = top[tops[2 * k + 1]], top[tops[2 * k]]
-        front += [(a, b, c), (a, c, d)]
-    if count > 1:  # the corner of a step lies on the side of the next one
-        for k in range(1, count):
-            d, below = top[tops[2 * k]], top[tops[2 * k - 1]]
-            front = [f for f in front if f != (k, top[tops[2 * k + 1]], d)]
-            c = top[tops[2 * k + 1]]
-            front += [(k, c, below), (below, c, d)]
-    sides = []
-    for i in range(n):
-        j = (i + 1) % n
-        sides += [(i, j + n, j), (i, i + n, j + n)]
-    back = [(a + n, c + n, b + n) for a, b, c in front]
-    return vertices, np.array(front + back + sides, np.int32)
 
 
 def shrinking_ball(points: np.ndarray, normals: np.ndarray, surface: np.ndarray) -> tuple:
@@ -122,6 +85,6 @@ def rays(points: np.ndarray, normals: np.ndarray, mesh: Mesh) -> np.ndarray:
             q = np.cross(p - a, u)
             t = (q @ -n) * inverse
             length = (v * q).sum(axis=1) * inverse
-        hit = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9) & (length > 1e-9)
+            hit = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9) & (length > 1e-9)
         lengths[i] = length[hit].min(initial=np.inf)
     return lengths

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import meshes
+from .plates import prism
 from .thick_meshes import lathe
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
@@ -143,43 +144,20 @@ def cup(t: float, around: int = 96) -> ThinSolid:
 
 
 def tube(t: float, around: int = 96) -> ThinSolid:
-    turn = 2 * np.pi * np.arange(around) / around
-    profile = [(0.5 - t, 0.0), (0.5, 0.0), (0.5, 1.0), (0.5 - t, 1.0)]
-    points = np.concatenate(
-        [
-            np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z)))
-            for r, z in profile
-        ]
-    )
-    i = np.arange(around)
-    j = (i + 1) % around
-    triangles = []
-    for ring in range(4):
-        a, b = ring * around, (ring + 1) % 4 * around
-        triangles += [
-            np.column_stack((a + i, a + j, b + j)),
-            np.column_stack((a + i, b + j, b + i)),
-        ]
-    mesh = points, np.concatenate(triangles).astype(np.int32)
+    mesh = meshes.revolved([(0.5 - t, 0.0), (0.5, 0.0), (0.5, 1.0), (0.5 - t, 1.0)], around)
     return ThinSolid(mesh, (1, 1, 0), 2 * np.pi * (0.5 - t / 2) * (1 - 2 * t))
 
 
 def shell(t: float, subdivisions: int = 5) -> ThinSolid:
     points, triangles = meshes.icosphere(subdivisions)
-    rows = triangles[:, ::-1] + len(points)
-    mesh = np.concatenate((points, (1 - t) * points)), np.concatenate((triangles, rows))
-    return ThinSolid((mesh[0], mesh[1].astype(np.int32)), (1, 0, 1), 4 * np.pi * (1 - t / 2) ** 2)
+    mesh = meshes.join((points, triangles), ((1 - t) * points, triangles[:, ::-1]))
+    return ThinSolid(mesh, (1, 0, 1), 4 * np.pi * (1 - t / 2) ** 2)
 
 
 def wedge(degrees: float = 2.0) -> ThinSolid:
     angle = np.radians(degrees)
-    outline = np.array([(0, 0), (1, 0), (np.cos(angle), np.sin(angle))])
-    points = np.concatenate([np.column_stack((outline, np.full(3, z))) for z in (0.0, 1.0)])
-    rows = [(0, 2, 1), (3, 4, 5)]
-    for i in range(3):
-        j = (i + 1) % 3
-        rows += [(i, j, 3 + j), (i, 3 + j, 3 + i)]
-    return ThinSolid((points, np.array(rows, np.int32)), (1, 0, 0), 1 - 2 * angle)
+    outline = [(0, 0), (1, 0), (np.cos(angle), np.sin(angle))]
+    return ThinSolid(prism(outline, [(0, 1, 2)], 1.0), (1, 0, 0), 1 - 2 * angle)
 
 
 def slot(gap: float) -> ThinSolid:

@@ -1145,20 +1145,6 @@ def frame_selected():
         bpy.ops.view3d.view_selected()
 
 
-def scene_cancel_surface_with_escape():
-    cloud()
-    yield from open_tab()
-    yield from click(*at(RECONSTRUCT))
-    yield job_exists
-    yield job_runs
-    look("running")
-    yield from key("Escape")
-    yield no_job
-    yield 0.5
-    nothing_is_left()
-    assert "cancelled" in bpy.context.scene.medial_axis.note
-
-
 def blender_goes_on(steps):
     """While a job runs, that is not over after so many steps."""
     gaps, last = [], time.monotonic()
@@ -1223,17 +1209,6 @@ def scene_cancel_with_button():
     nothing_is_left()
     yield 0.3
     assert "cancelled" in bpy.context.scene.medial_axis.note
-
-
-def scene_source_deleted():
-    source = cloud()
-    yield from start_long_run()
-    bpy.data.objects.remove(source)
-    yield no_job
-    yield 0.3
-    nothing_is_left()
-    assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
-    yield from look_after(1.0, "deleted")
 
 
 def scene_undo_while_running():
@@ -1346,20 +1321,6 @@ def scene_window_closed_while_running():
     bpy.ops.mesh.primitive_cube_add()
     yield from open_tab()
     yield from computed()
-
-
-def scene_file_loaded():
-    cloud()
-    yield from start_long_run()
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 1.0
-    assert job() is None
-    nothing_is_left()
-    monkey()
-    yield from open_tab()
-    yield from computed()
-    look("computed after loading")
 
 
 def scene_edit_mode():
