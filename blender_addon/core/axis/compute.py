@@ -20,7 +20,6 @@ from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..settings import Form, Settings, SidesFrom
 from ..shape.outward_faces import reading_counts
 from ..shape.shape import Shape
-from ..shape.solid_faces import triangles_of_places
 from .axis_warnings import axis_warnings
 from .extract import extract
 from .medial_axis import MedialAxis
@@ -91,7 +90,7 @@ class Computation(OfChosenSamples):
     @property
     def key(self) -> str:
         """The name of the analysis for `refilter`."""
-        return self.chosen.samples.key
+        return self.chosen.samples.kept.key
 
 
 def compute(
@@ -138,7 +137,7 @@ def compute_axis(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
-        triangles=triangles_of_places(shape, settings),
+        triangles=len(shape.triangles) if settings.has_crisp_places else 0,
     )
     if form is Form.CURVE:
         limit = limit.used(output=CURVE)

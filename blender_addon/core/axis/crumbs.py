@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints, Longs
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
 from .cut import lowest_of_piece
 from .medial_axis import MedialAxis
@@ -23,7 +23,7 @@ from .spacing import spacing_of
 LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting
 
 
-def crumb_sizes(level: Any, samples: AnalysedSamples) -> NDArray[np.float32]:
+def crumb_sizes(level: Any, samples: Analysed) -> NDArray[np.float32]:
     """(v,) the size of the piece of each vertex, in spacings of the samples there; infinite where it is no crumb.
 
     The size of a piece is its largest radius and half the diagonal of the box round its vertices. Nothing is a crumb
@@ -32,7 +32,7 @@ def crumb_sizes(level: Any, samples: AnalysedSamples) -> NDArray[np.float32]:
     Parameters
     ----------
     level : _medial.Level
-    samples : AnalysedSamples
+    samples : Analysed
     """
     found = np.full(len(level.vertices), np.inf, np.float32)
     if samples.by_faces is not None and samples.by_faces[0] == level.betti[0]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 
 # Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
 # the largest one that counts.
@@ -14,7 +14,7 @@ _LARGEST = 3.0
 _PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
 
 
-def spacing_of(samples: AnalysedSamples) -> Floats:
+def spacing_of(samples: Analysed) -> Floats:
     """Return the distance of neighbours at each sample, (n,); duplicates have 0."""
     if samples.apart is not None:
         return samples.apart

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from .spacing import spacing_of
 
 SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
@@ -115,7 +115,7 @@ FIELDS = tuple(Structure.__dataclass_fields__)
 _NAMES = {name: name for name in FIELDS} | {"facet_edges": "edges"}
 
 
-def structure_of(level: Any, samples: AnalysedSamples) -> Structure:
+def structure_of(level: Any, samples: Analysed) -> Structure:
     """Return the structure of a `_medial.Level` of analysed samples."""
     patches = samples.patches
     if patches is None:

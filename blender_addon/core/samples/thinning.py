@@ -14,6 +14,8 @@ from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes
 from ..settings import OPTIONS, AboveLimit, SamplingMode, Settings
 from ..shape.shape import Shape
+from .prepare import Input
+from .sample_spacing import first_pass
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95
@@ -42,6 +44,20 @@ def thinned_rows(points: Floats, limit: MemoryLimit, error: MemoryLimitError) ->
         f"{error.points:,} points need about {_needed(limit, error)}, more than {limit}: {len(rows):,} of "
         f"the {len(points):,} points, evenly spread, were kept"
     )
+
+
+def thinned(given: Input, limit: MemoryLimit, error: MemoryLimitError) -> Input:
+    """Return an input whose samples can be analysed within a limit; raise the error again where that is not allowed."""
+    shape = given.shape
+    if len(shape.triangles):
+        settings, sentence = fewer_samples(shape, given.settings, given.first.count, limit, error)
+        first = first_pass(shape, settings)
+        return replace(given, settings=settings, first=first, thinned=sentence)
+    rows, sentence = thinned_rows(shape.points, limit, error)
+    normals = None if shape.normals is None else shape.normals[rows]
+    of_caller = rows if shape.rows is None else shape.rows[rows]
+    shape = replace(shape, points=shape.points[rows], normals=normals, rows=of_caller)
+    return replace(given, shape=shape, thinned=sentence)
 
 
 def fewer_samples(

@@ -156,7 +156,10 @@ def _by_axis(
         seconds=begun.seconds,
         walls=walls,
         key=key_of(
-            "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
+            "thickness",
+            chosen.samples.kept.key,
+            astuple(settings),
+            astuple(replace(wanted, limit=0.0)),
         ),
     )
     found = _up_to_faces(found)
