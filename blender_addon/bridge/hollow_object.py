@@ -38,12 +38,7 @@ def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
 
 
 def hole_of(found: Hollow, frame: Floats, width: float, at_cursor: bool) -> DrainHole:
-    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor."""
     turned = frame[:3, :3].T
     down = turned @ (0.0, 0.0, -1.0)
     if not at_cursor:

@@ -24,12 +24,7 @@ def write_result_of_part(
     look: Look,
     shown: ShownAxis,
 ) -> bpy.types.Object:
-    """Make the result of a part of a source, or update the existing one, as `write_result` does.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Make the result of a part of a source, or update the existing one, as `write_result` does."""
     product = replace(RESULT, suffix=f"{SUFFIX} {part}", part=part)
     is_new = product.of(source) is None
     result = write_result(source, computation, frame, look, product, shown=shown)

@@ -72,12 +72,7 @@ def is_slow(result: bpy.types.Object) -> bool:
 
 
 def read_live(result: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> LiveSource:
-    """Read the source of a result as it is now.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Read the source of a result as it is now."""
     source = source_of(result)
     shape = read_object(source, depsgraph)
     world = source.evaluated_get(depsgraph).matrix_world.copy()
@@ -88,10 +83,6 @@ def write_live(read: LiveSource, found: Computed, is_coarse: bool) -> None:
     """Give a result the axis of its source as it was read; nothing, where the result is gone or live no more.
 
     A coarse result stays outdated, as the panel says, until the full one is there.
-
-    Raises
-    ------
-    MedialAxisError
     """
     result = bpy.data.objects.get(read.name)
     if result is None or result not in live_results():

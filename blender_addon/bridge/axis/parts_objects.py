@@ -97,12 +97,7 @@ def separate_parts(result: bpy.types.Object) -> bpy.types.Collection:
 
 
 def with_agreeing_facets(axis: MedialAxis) -> MedialAxis:
-    """The axis with the facets of each part turned alike.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """The axis with the facets of each part turned alike."""
     structure = axis.structure
     if structure is None:
         raise InvalidInputError(

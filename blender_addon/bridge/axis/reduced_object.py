@@ -25,12 +25,7 @@ is_reduced, reduced_of = REDUCED_MESH.has, REDUCED_MESH.of
 
 
 def check_reduced_writable(result: bpy.types.Object) -> None:
-    """Check that `write_reduced` can change the object that there is.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Check that `write_reduced` can change the object that there is."""
     REDUCED_MESH.check_writable(source_of(result) or result)
 
 

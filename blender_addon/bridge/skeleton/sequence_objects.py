@@ -89,10 +89,6 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     name : str
     files : dict of int to Path
         Of each frame, ascending: all `.npz` of medial axes, or all `.json` of skeletons.
-
-    Raises
-    ------
-    ReadError, InvalidInputError
     """
     form = next(iter(files.values())).suffix.lower()
     made: list[bpy.types.Object] = []

@@ -123,10 +123,6 @@ def compute_axis(
     relaxed : bool
         Whether curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them; else the vertices of
         facets of the Voronoi diagram have crisp places.
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     asked, settings = settings, settings.with_side()
     rough = ""
@@ -175,11 +171,6 @@ def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
 
 
 def refilter(key: str, settings: Settings, progress: Progress | None = None) -> MedialAxis | None:
-    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
-    """
+    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept."""
     samples = CACHE.get(key)
     return None if samples is None else extract(samples, settings, progress)

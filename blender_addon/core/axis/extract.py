@@ -40,10 +40,6 @@ def extract(
     """Extract the axis that the settings select, in the form that they have for their side.
 
     Curves of the forms CLEAN and CURVE are smoothed if it is relaxed; else facets have crisp places.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
     """
     if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())

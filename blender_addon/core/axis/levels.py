@@ -43,10 +43,6 @@ def hierarchy_of(
     progress : _medial.Progress or None
     places : bool
         Whether its vertices need crisp places, where the faces give any; even meshes have their own.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
     """
     bodies = 1 if samples.by_faces is None else samples.by_faces[0]
     solid = samples.solid if settings.crisp else None
@@ -60,12 +56,7 @@ def hierarchy_of(
 def extract_level(
     samples: Analysed, settings: Settings, progress: Progress | None, relaxed: bool = True
 ) -> MedialAxis:
-    """Extract the axis in the form CLEAN or CURVE: with smoothed curves if it is relaxed, else facets at crisp places.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
-    """
+    """Extract the axis in the form CLEAN or CURVE: with smooth curves if it is relaxed, else facets at crisp places."""
     wanted = _wanted(settings)
     hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.4), not relaxed)
     shown = hierarchy

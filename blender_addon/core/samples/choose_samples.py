@@ -58,10 +58,6 @@ def begin(
         The share of the whole work that the analysis is.
     levels : bool
         The hierarchy will be needed, so it may as well be computed while samples are chosen.
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start, progress = time.perf_counter(), progress or Progress()
     progress.until(share)

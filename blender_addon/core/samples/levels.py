@@ -65,10 +65,6 @@ class Levels:
             As in `Analysed`, always the same ones.
         places : bool
             Whether the vertices of the hierarchy need crisp places, which take long.
-
-        Raises
-        ------
-        OutOfMemoryError, Cancelled
         """
         faces = None if solid is None else solid.options(settings)
         theta, rho = (settings.theta, settings.rho) if places else _thresholds_of_mesh(settings)
@@ -99,10 +95,6 @@ class Levels:
         """Return the `_medial.Hierarchy` of the even mesh of a hierarchy, at the thresholds of the settings.
 
         The mesh is made again for limbs below the usual ones; all else is a level of the mesh.
-
-        Raises
-        ------
-        OutOfMemoryError, Cancelled
         """
         limb = min(settings.limb, Settings().limb)
         level = {"limb": limb / 100, "crisp": settings.crisp}

@@ -73,10 +73,6 @@ def report_sampling(
     settings : Settings
     progress : Progress, optional
     limit : MemoryLimit
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings, given = settings.with_side(), shape
     shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))

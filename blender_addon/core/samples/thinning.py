@@ -73,10 +73,6 @@ def fewer_samples(
         The number of samples that the first pass would have.
     limit, error
         As for `thinned_rows`.
-
-    Raises
-    ------
-    MemoryLimitError
     """
     most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
     sentence = (

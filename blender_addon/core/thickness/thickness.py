@@ -57,10 +57,6 @@ def measure_thickness(
     wanted : ThicknessSettings
     progress : Progress, optional
     limit : MemoryLimit
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = replace(settings, side=wanted.side)
     start, progress, shape = time.perf_counter(), progress or Progress(), outward_shape(shape)

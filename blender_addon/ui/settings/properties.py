@@ -127,12 +127,7 @@ def _is_of_noisy_faces(properties):
 
 
 def settings_from(properties, kind=Settings):
-    """Properties of an operator or of a panel as settings of a kind; an option that has no property has its default.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Properties of an operator or of a panel as settings of a kind; an option that has no property has its default."""
     return kind(
         **{
             name: _value(option, getattr(properties, name))
