@@ -18,7 +18,6 @@ from ..shape.nearness import nearest
 from .cut import lowest_of_piece
 from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
-from .spacing import spacing_of
 
 LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting
 
@@ -37,7 +36,7 @@ def crumb_sizes(level: Any, samples: Analysed) -> NDArray[np.float32]:
     found = np.full(len(level.vertices), np.inf, np.float32)
     if samples.by_faces is not None and samples.by_faces[0] == level.betti[0]:
         return found
-    spacing = spacing_of(samples)
+    spacing = samples.neighbours
     small = level.radius < LARGEST * spacing.max(initial=0.0)
     small[level.face_vertices] = False
     piece = _piece_of(level.wires, small)

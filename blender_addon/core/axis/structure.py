@@ -11,7 +11,6 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..samples.analysed import Analysed
-from .spacing import spacing_of
 
 SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
 JUNCTION, CORNER = 2, 4  # values of `Structure.kind` and `node_kind`
@@ -129,6 +128,6 @@ def structure_of(level: Any, samples: Analysed) -> Structure:
             generators=level.generators,
             wires=level.wires,
             patches=patches,
-            spacing=spacing_of(samples),
+            spacing=samples.neighbours,
         )
     return Structure(**{ours: getattr(found, theirs) for ours, theirs in _NAMES.items()})

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ..arrays import Floats, Ints
 from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
@@ -14,6 +16,10 @@ from .density import Density
 from .levels import Levels
 from .walls import Places, Walls
 
+# Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
+# the largest one that counts.
+_LARGEST = 3.0
+_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
 _BURIED = 0.01  # so large a share of the samples may be buried, for foils are too thin to tell
 
 
@@ -132,6 +138,15 @@ class Analysed(Samples):
     solid: SolidFaces | None = None
     patches: Ints | None = None
     kept: Kept = field(default_factory=Kept)
+
+    @cached_property
+    def neighbours(self) -> Floats:
+        """The distance of neighbours at each sample, (n,); duplicates have 0."""
+        if self.apart is not None:
+            return self.apart
+        spacing, found = np.zeros(len(self.points)), self.analysis.spacing * _PER_HOLE
+        spacing[self.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
+        return spacing
 
     @cached_property
     def overlaps(self) -> bool:

@@ -33,9 +33,8 @@ from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
 from .fill import Filled, filled
 from .forks import draw_forks
-from .inscribe import inscribe
 from .join_pieces import join_pieces, no_joins
-from .middle import lead_through_middle
+from .middle import inscribe, lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
 from .simplify import kept_points
