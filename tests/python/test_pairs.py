@@ -191,23 +191,14 @@ def test_automatic_finds_thin_walls_and_small_holes(solid):
 )
 def test_the_loop_goes_on_while_it_helps(monkeypatch, differences, passes):
     """The best of the passes is taken; `differences` are those that each pass would have."""
-    samples = SimpleNamespace(
-        points=np.zeros((1, 3)),
-        buried=0,
-        walls_are_close=False,
-        density=SimpleNamespace(dense_enough=True),
-    )
-    amount = Amount(1, 1.0, pairs=True, flat=1.0)
+    samples = SimpleNamespace(points=np.zeros((1, 3)), buried=0, walls_are_close=False)
+    samples.density, amount = SimpleNamespace(dense_enough=True), Amount(1, 1.0, flat=1.0)
     monkeypatch.setattr(judge, "finer_in_pairs", lambda *_: amount)
-    given = SimpleNamespace(settings=SimpleNamespace(budget=1000))
-    made = [
-        SimpleNamespace(differences=number, samples=samples, amount=amount, topology=object())
-        for number in (10, *differences)
-    ]
-    left, compared = iter(made[2:]), made[:2]
-    while judge._next_in_pairs(SimpleNamespace(given=given), compared):
-        compared = [*compared, next(left)]
-    best, found = judge._best_of(compared)
+    plan = SimpleNamespace(given=SimpleNamespace(settings=SimpleNamespace(budget=1000)))
+    known = {"samples": samples, "amount": amount, "topology": object()}
+    made = [SimpleNamespace(differences=number, **known) for number in (10, *differences)]
+    count = next(k for k in range(2, 99) if not judge._next_in_pairs(plan, made[:k]))
+    best, found = judge._best_of(made[:count])
     assert found == passes and best.differences == differences[passes - 1]
 
 

@@ -286,8 +286,6 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
     places, far = np.eye(3), np.full(3, np.inf)
     samples = Analysed(
         points=places,
-        kinds=None,
-        normals=None,
         analysis=None,
         density=Density(places, np.ones(3), far, places[:0], finest=0.5, limit=0.25),
         spacing=0.5,
@@ -299,5 +297,5 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
     plan = SimpleNamespace(effort=Effort(2, 1.0, 0.0625, 0.0625))
     amount = next_amount(plan, samples, 200)
     sites, spacings = amount.sizing
-    assert sites.tolist() == places.tolist() and spacings.tolist() == [0.05, 0.3, 0.5]
-    assert amount.count == 200
+    assert amount.count == 200 and sites.tolist() == places.tolist()
+    assert spacings.tolist() == [0.05, 0.3, 0.5]

@@ -10,7 +10,7 @@ import bpy
 
 from ...core.errors import InvalidInputError, ReadError
 from ...core.shape.shape import Shape
-from .output_object import VERSION
+from ..mesh import stored
 from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 
 # Extension -> operators that import it, the first one that this Blender has.
@@ -80,7 +80,7 @@ def names(wanted: Sequence[str] | None) -> list[str]:
     found = [
         thing.name
         for thing in there
-        if thing.type in SAMPLED_TYPES and thing.visible_get() and VERSION not in thing
+        if thing.type in SAMPLED_TYPES and thing.visible_get() and stored.VERSION not in thing
     ]
     if not found:
         raise InvalidInputError(
