@@ -52,12 +52,7 @@ class Console:
         self._write_aside(f"medial_axis: {text}\n")
 
     def tell(self, report: dict[str, Any]) -> None:
-        """A result, or why there is none.
-
-        Raises
-        ------
-        ClosedPipeError
-        """
+        """A result, or why there is none."""
         if self._json:
             self._write(self._start + _as_json(report, sys.stdout) + "\n")
         name = report["object"] or os.path.basename(report["input"]) or report["input"]

@@ -20,15 +20,12 @@ from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
 from .capsules_shown import add_capsules, is_capsules
+from .mesh import stored
 from .mesh.attributes import RADIUS, read_vectors
 from .mesh.material import radius_material
 from .mesh.write_mesh import new_mesh
 from .nodes.groups import add_coloured_balls, is_group
 from .objects.output_object import Product, check_mode, place, remember
-
-MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
-OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"
-_WRITTEN = "ma_balls_written"  # identifies the balls to which the figures belong
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class _Vertices:
     face_vertices: Ints
 
 
-BALLS = Product(" Balls", (MODE,), material=radius_material)
+BALLS = Product(" Balls", (stored.BALLS_MODE,), material=radius_material)
 is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writable
 
 
@@ -70,9 +67,9 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
     _show(thing, bool(len(balls.edges)), is_new)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
-    thing[MODE], thing[COVERED] = balls.mode.name, balls.covered
-    thing[OUTSIDE], thing[FARTHEST] = balls.outside, balls.farthest
-    thing[_WRITTEN] = _name_of(*_rows(thing))
+    thing[stored.BALLS_MODE], thing[stored.BALLS_COVERED] = balls.mode.name, balls.covered
+    thing[stored.BALLS_OUTSIDE], thing[stored.BALLS_FARTHEST] = balls.outside, balls.farthest
+    thing[stored.BALLS_WRITTEN] = _name_of(*_rows(thing))
     return thing
 
 
@@ -100,11 +97,14 @@ def read_balls(thing: bpy.types.Object) -> Balls:
     """
     check_mode(thing)
     centres, radii, edges = _rows(thing)
-    known = thing.get(_WRITTEN) == _name_of(centres, radii, edges)
+    known = thing.get(stored.BALLS_WRITTEN) == _name_of(centres, radii, edges)
     covered, outside, farthest = (
-        float(thing[name]) if known else np.nan for name in (COVERED, OUTSIDE, FARTHEST)
+        float(thing[name]) if known else np.nan
+        for name in (stored.BALLS_COVERED, stored.BALLS_OUTSIDE, stored.BALLS_FARTHEST)
     )
-    return Balls(centres, radii, CoverMode[thing[MODE]], covered, outside, farthest, edges)
+    return Balls(
+        centres, radii, CoverMode[thing[stored.BALLS_MODE]], covered, outside, farthest, edges
+    )
 
 
 def _rows(thing: bpy.types.Object) -> tuple[Floats, Floats, Ints]:

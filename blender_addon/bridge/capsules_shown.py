@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import bpy
 
+from .mesh import stored
 from .mesh.attributes import RADIUS
 from .mesh.material import radius_material
 from .nodes.inputs import has_inputs
 from .nodes.tree import Tree
 
 NAME = "Medial Axis Capsules"
-_BUILT_BY = "ma_capsules"  # identifies our group after someone renamed it
 _SUBDIVISIONS, _SIDES = "Subdivisions", "Sides"
 
 
@@ -28,7 +28,7 @@ def add_capsules(thing: bpy.types.Object) -> bpy.types.NodesModifier:
 
 def is_capsules(group: bpy.types.NodeTree | None) -> bool:
     """Return whether this is our group, by whatever name."""
-    return group is not None and bool(group.get(_BUILT_BY))
+    return group is not None and bool(group.get(stored.CAPSULES))
 
 
 def _group() -> bpy.types.NodeTree:
@@ -36,7 +36,7 @@ def _group() -> bpy.types.NodeTree:
         if found.library is None and is_capsules(found) and has_inputs(found, _SIDES):
             return found
     made = _new_group()
-    made[_BUILT_BY] = True
+    made[stored.CAPSULES] = True
     return made
 
 

@@ -12,6 +12,7 @@ from mathutils import Matrix
 from ..core.arrays import Floats
 from ..core.hollow.drain_hole import DrainHole, drain_hole
 from ..core.hollow.hollow import Hollow
+from .mesh import stored
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import (
     Product,
@@ -19,15 +20,15 @@ from .objects.output_object import (
     new_object,
     place,
     remember,
+    remove_object,
     replace_mesh,
     source_of,
 )
 
-WALL, LEAST = "ma_hollow_wall", "ma_hollow_least"
 _DRAIN = "Medial Axis Drain"  # the modifier
 _AROUND = 48  # corners of the cylinder
 
-HOLLOW = Product(" Hollow", (WALL,))
+HOLLOW = Product(" Hollow", (stored.HOLLOW_WALL,))
 is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
 
 
@@ -38,12 +39,7 @@ def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
 
 
 def hole_of(found: Hollow, frame: Floats, width: float, at_cursor: bool) -> DrainHole:
-    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor."""
     turned = frame[:3, :3].T
     down = turned @ (0.0, 0.0, -1.0)
     if not at_cursor:
@@ -74,7 +70,7 @@ def write_hollow(
     thing, _ = HOLLOW.write_mesh(source, partial(new_mesh, found))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
-    thing[WALL], thing[LEAST] = found.wall, found.least
+    thing[stored.HOLLOW_WALL], thing[stored.HOLLOW_LEAST] = found.wall, found.least
     _write_drain(thing, hole)
     return thing
 
@@ -101,10 +97,7 @@ def _write_drain(thing: bpy.types.Object, hole: DrainHole | None) -> None:
 
 def _remove(cutter: bpy.types.Object | None) -> None:
     if cutter is not None:
-        mesh = cutter.data
-        bpy.data.objects.remove(cutter)
-        if not mesh.users:
-            bpy.data.meshes.remove(mesh)
+        remove_object(cutter)
 
 
 def _cylinder(hole: DrainHole, name: str) -> bpy.types.Mesh:

@@ -11,14 +11,14 @@ import numpy as np
 from ..core.arrays import Floats
 from ..core.axis.colours import radius_range
 from ..core.mid_surface.mid_surface import MidSurface
+from .mesh import stored
 from .mesh.attributes import Attribute
 from .mesh.material import THICKNESS, thickness_material
 from .mesh.step_weights import write_steps
 from .mesh.write_mesh import new_mesh
-from .objects.output_object import Product, follow_like, place, remember, source_of
+from .objects.output_object import Product, follow_like, place, remember, remove_object, source_of
 from .thickness.thickness_object import carrier_of
 
-SHEETS, SHARE = "ma_mid_sheets", "ma_mid_share"
 _NAME = "Medial Axis Thickness"  # of the modifier and of the vertex group
 _ALIKE = 1e-3  # thicknesses that differ by less than this share need no vertex group
 _TABLE = (
@@ -27,10 +27,9 @@ _TABLE = (
     Attribute("ma_part", "part", "FACE", "INT", np.int32),
 )
 
-THICK = "ma_thick_faces"
 
-THICK_PARTS = Product(" Thick Parts", (THICK,))
-MID_SURFACE = Product(" Mid-Surface", (SHEETS,), material=thickness_material)
+THICK_PARTS = Product(" Thick Parts", (stored.THICK_FACES,))
+MID_SURFACE = Product(" Mid-Surface", (stored.MID_SHEETS,), material=thickness_material)
 is_mid_surface, mid_surface_of, is_thick = MID_SURFACE.has, MID_SURFACE.of, THICK_PARTS.has
 
 
@@ -65,7 +64,7 @@ def write_mid_surface(
         _show_in_front(thing, source)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
-    thing[SHEETS], thing[SHARE] = found.sheets, found.share
+    thing[stored.MID_SHEETS], thing[stored.MID_SHARE] = found.sheets, found.share
     _solidify(thing, found.of_vertices)
     _write_thick(source, found, frame)
     return thing
@@ -77,15 +76,12 @@ def _write_thick(source: bpy.types.Object, found: MidSurface, frame: Floats) -> 
     if thick is None or not len(thick.triangles):
         old = THICK_PARTS.of(source)
         if old is not None:
-            mesh = old.data
-            bpy.data.objects.remove(old)
-            if not mesh.users:
-                bpy.data.meshes.remove(mesh)
+            remove_object(old)
         return
     thing, _ = THICK_PARTS.write_mesh(source, partial(new_mesh, thick))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, ())
-    thing[THICK] = len(thick.triangles)
+    thing[stored.THICK_FACES] = len(thick.triangles)
 
 
 def place_thick_parts(sheets: bpy.types.Object) -> None:

@@ -21,19 +21,18 @@ from ..core.shape.shape import Shape
 from ..core.small_matrices import inverse, times
 from .axis.axis_object import radius_range, settings_of
 from .axis.reduced_object import is_reduced
-from .mesh.colours import OF, remember_colours
+from .mesh import stored
+from .mesh.colours import remember_colours
 from .mesh.material import FLAT
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
-from .objects.output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
+from .objects.output_object import Product, follow_like, is_gone, new_object, source_of
 from .objects.read_object import read_object
 
-REBUILT = "ma_rebuilt"  # marks the object
-MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"
 _PARTS = 256  # voxels along the diagonal
 
 
-SOLID = Product(" Rebuilt", (REBUILT,))
+SOLID = Product(" Rebuilt", (stored.REBUILT,))
 is_rebuilt, rebuilt_of = SOLID.has, SOLID.of
 
 
@@ -68,10 +67,10 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
         return found
     made = new_object(result, SOLID.suffix, result.data)
     follow_like(made, result)
-    made[REBUILT], made[SOURCE] = True, result
+    made[stored.REBUILT], made[stored.SOURCE] = True, result
     made.color = FLAT
     start, end = colours_of_radii(radius_range(result))
-    remember_colours(made, result.get(OF, ""), start, end)
+    remember_colours(made, result.get(stored.COLOUR_OF, ""), start, end)
     voxel = _diagonal(result) / _PARTS
     if is_reduced(result):
         _divide(made, voxel)
@@ -115,8 +114,8 @@ def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidD
         return None
     shapes = [_in_the_world(read_object(thing, depsgraph)) for thing in (source, rebuilt)]
     found = solid_difference(*shapes)
-    rebuilt[MEAN], rebuilt[LARGEST] = found.mean, found.largest
-    rebuilt[VOLUME] = found.volume
+    rebuilt[stored.REBUILT_MEAN], rebuilt[stored.REBUILT_LARGEST] = found.mean, found.largest
+    rebuilt[stored.REBUILT_VOLUME] = found.volume
     return found
 
 

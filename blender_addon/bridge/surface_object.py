@@ -9,16 +9,11 @@ import bpy
 import numpy as np
 
 from ..core.rebuild.reconstruction import Reconstruction
+from .mesh import stored
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import Product, place, remember
 
-OFF_SURFACE = "ma_off_surface"
-NONMANIFOLD_EDGES = "ma_nonmanifold_edges"
-NONMANIFOLD_VERTICES = "ma_nonmanifold_vertices"
-CAVITIES = "ma_cavities"
-
-
-SURFACE = Product(" Surface", (OFF_SURFACE,))
+SURFACE = Product(" Surface", (stored.OFF_SURFACE,))
 is_surface, surface_of, check_surface_writable = SURFACE.has, SURFACE.of, SURFACE.check_writable
 
 
@@ -43,8 +38,8 @@ def write_surface(
     surface, _ = SURFACE.write_mesh(source, partial(new_mesh, found))
     place(surface, frame)
     remember(surface, source, found.points, found.duplicates, found.warnings)
-    surface[OFF_SURFACE] = found.off_surface
-    surface[NONMANIFOLD_EDGES] = found.nonmanifold_edges
-    surface[NONMANIFOLD_VERTICES] = found.nonmanifold_vertices
-    surface[CAVITIES] = found.cavities
+    surface[stored.OFF_SURFACE] = found.off_surface
+    surface[stored.NONMANIFOLD_EDGES] = found.nonmanifold_edges
+    surface[stored.NONMANIFOLD_VERTICES] = found.nonmanifold_vertices
+    surface[stored.CAVITIES] = found.cavities
     return surface

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The errors. Each message is one sentence: what was expected, what was found, and what to do."""
+"""The errors. Each message is one sentence: what was expected, what was found, and what to do.
+
+Every computation may raise those of this file, so a docstring names an error only where it says when it comes.
+"""
 
 from __future__ import annotations
 

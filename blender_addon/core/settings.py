@@ -466,12 +466,17 @@ class Settings(Options):
         return of_faces and self.form_of_side is not Form.PUBLISHED
 
     @property
+    def has_crisp_places(self) -> bool:
+        """Whether the faces may give the vertices places."""
+        return self.crisp and self.crisp_is_possible
+
+    @property
     def options_of_faces(self) -> tuple[str, ...]:
         """The options of the sampling that say what the faces are, if the form of the axis depends on that.
 
         Crisp places are on the smooth surface and at its sharp edges; these also divide the sheets of a clean form.
         """
-        if self.crisp and self.crisp_is_possible:
+        if self.has_crisp_places:
             return ("sharp_angle", "smooth")
         return ("sharp_angle",) if self.form_of_side is Form.CLEAN else ()
 

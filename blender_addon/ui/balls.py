@@ -6,15 +6,8 @@ from functools import partial
 import bpy
 
 from ..bridge.axis.read_axis import find_axis
-from ..bridge.balls_object import (
-    COVERED,
-    FARTHEST,
-    OUTSIDE,
-    balls_of,
-    check_balls_writable,
-    is_balls,
-    write_balls,
-)
+from ..bridge.balls_object import balls_of, check_balls_writable, is_balls, write_balls
+from ..bridge.mesh import stored
 from ..bridge.objects.output_object import is_gone, source_of
 from ..core.cover.ball_cover import cover_by_balls
 from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
@@ -114,9 +107,9 @@ def _draw_figures(context, layout, thing):
     single = max(0, len(thing.data.vertices) - 2 * capsules)
     figures = {
         "Capsules" if capsules else "Balls": f"{capsules + single:,}",
-        "Volume": f"{100 * thing[COVERED]:.1f} %",
-        "Outside": length_text(context, thing[OUTSIDE]),
-        "Surface Away": length_text(context, thing[FARTHEST]),
+        "Volume": f"{100 * thing[stored.BALLS_COVERED]:.1f} %",
+        "Outside": length_text(context, thing[stored.BALLS_OUTSIDE]),
+        "Surface Away": length_text(context, thing[stored.BALLS_FARTHEST]),
     }
     draw_figures(layout, figures)
 

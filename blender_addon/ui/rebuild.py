@@ -4,18 +4,10 @@
 import bpy
 
 from ..bridge.axis.read_axis import find_axis
+from ..bridge.mesh import stored
 from ..bridge.nodes.inputs import row_of
 from ..bridge.objects.step_back import are_back, seen, step_back
-from ..bridge.rebuilt_object import (
-    LARGEST,
-    MEAN,
-    VOLUME,
-    measure,
-    modifier_of,
-    rebuild,
-    rebuilt_of,
-    unrebuilt,
-)
+from ..bridge.rebuilt_object import measure, modifier_of, rebuild, rebuilt_of, unrebuilt
 from .axis.compute_operator import Alone
 from .base.plain_words import Needing, Telling
 from .base.select_made import bring_into_view_layer
@@ -116,11 +108,11 @@ def _draw_inputs(layout, made):
 
 
 def _draw_difference(layout, made):
-    if MEAN not in made:
+    if stored.REBUILT_MEAN not in made:
         return
     figures = {
-        "Mean Distance": f"{100 * made[MEAN]:.3f} %",
-        "Max Distance": f"{100 * made[LARGEST]:.2f} %",
-        "Volume": f"{100 * made[VOLUME]:.1f} %",
+        "Mean Distance": f"{100 * made[stored.REBUILT_MEAN]:.3f} %",
+        "Max Distance": f"{100 * made[stored.REBUILT_LARGEST]:.2f} %",
+        "Volume": f"{100 * made[stored.REBUILT_VOLUME]:.1f} %",
     }
     draw_figures(layout, figures, 0.6)

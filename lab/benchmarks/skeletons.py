@@ -33,8 +33,9 @@ import numpy as np
 medial = _module.load()
 
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
+from medial_axis.core.machine.memory_limit import WHAT_IS_FREE  # noqa: E402
 from medial_axis.core.machine.progress import Progress  # noqa: E402
-from medial_axis.core.samples.choose_samples import choose_samples  # noqa: E402  (found through _module)
+from medial_axis.core.samples.choose_samples import begin  # noqa: E402  (found through _module)
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings  # noqa: E402
 from medial_axis.core.shape.nearness import nearest  # noqa: E402
 from medial_axis.core.shape.shape import Shape  # noqa: E402
@@ -158,7 +159,7 @@ class Truth:
 
     def __init__(self, shape: Shape) -> None:
         settings = Settings(sampling=SamplingMode.SURFACE, samples=100_000)
-        self._samples = choose_samples(shape, settings, Progress()).samples.points
+        self._samples = begin(shape, settings, Progress(), WHAT_IS_FREE).chosen.samples.points
         a, b, c = (shape.points[column] for column in shape.triangles.T)
         self._a, self._u, self._v = a, b - a, c - a
 

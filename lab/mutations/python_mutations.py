@@ -66,8 +66,8 @@ MUTATIONS = (
     ),
     _bug(
         "samples/choose_samples.py",
-        'in ("smooth", "keep_vertices", "pairs", "seed")',
-        'in ("smooth", "keep_vertices", "pairs")',
+        '"seed": settings.seed,',
+        '"seed": 0,',
         "the seed does not reach the sampling",
         "test_cache.py",
     ),

@@ -19,9 +19,7 @@ SidesFrom resolve(SidesFrom wanted, const Surface& surface, bool has_normals) {
     throw InvalidInputError(
         "Expected normals for sides NORMALS, found none; pass them, or choose TIGHT_COCONE.");
   }
-  if (wanted != SidesFrom::automatic) return wanted;
-  if (surface.closed()) return SidesFrom::surface;
-  return has_normals ? SidesFrom::normals : SidesFrom::tight_cocone;
+  return wanted == SidesFrom::automatic ? automatic_sides(surface.closed(), has_normals) : wanted;
 }
 
 std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& samples) {

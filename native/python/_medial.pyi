@@ -1486,6 +1486,10 @@ def memory_needed(points: int) -> int:
     """Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured. Facets that are
     long and thin, as on a torus of random points, take up to four times as many."""
 
+def automatic_sides(bounded: bool, has_normals: bool) -> SidesFrom:
+    """The source that `SidesFrom.AUTOMATIC` takes, by whether faces bound a solid and whether there are normals;
+    instead of TIGHT_COCONE an analysis may take POLES."""
+
 def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
     """`MedialAnalysis.boundary_edges` without the analysis: edges of the triangles that are not used equally often in
     both directions, rows with the same coordinates being one. 0: the surface is closed, or there is none.

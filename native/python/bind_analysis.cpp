@@ -144,6 +144,8 @@ void bind_analysis(py::module_& m) {
   bind_hierarchy(m);
   bind_thickness(m);
   m.def("memory_needed", &memory_needed, docs::memory_needed, py::arg("points"));
+  m.def("automatic_sides", &automatic_sides, docs::automatic_sides, py::arg("bounded"),
+        py::arg("has_normals"));
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", docs::MedialAnalysis, py::is_final(),
                              py::module_local())

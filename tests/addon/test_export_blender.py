@@ -122,7 +122,7 @@ def test_npz_holds_all_attributes(result, tmp_path):
 def test_read_axis_is_the_computed_axis_in_float32(result):
     read = addon("bridge.axis.read_axis").read_axis(result)
     analysis, results = addon("core.axis.compute"), addon("bridge.axis.axis_object")
-    axis = analysis.refilter(result[results.ANALYSIS], results.settings_of(result))
+    axis = analysis.refilter(result["ma_analysis"], results.settings_of(result))
     for name in ("face_offsets", "face_vertices", "side", "generators", "unbounded"):
         assert np.array_equal(getattr(read, name), getattr(axis, name)), name
     for name in ("vertices", "radius", "theta", "rho"):

@@ -49,7 +49,7 @@ def test_runs_leave_no_blocks_and_no_memory():
         change(source, run)
         compute()
     (result,) = medial_objects()
-    one = cache.get(result["ma_analysis"]).bytes
+    one = addon("core.machine.cache").bytes_of(cache.get(result["ma_analysis"]))
     preferences = bpy.context.preferences.addons[MODULE].preferences
     preferences.cache_size = 1 + 2 * one // (1 << 20)
     start, held = blocks(), resident()

@@ -50,10 +50,11 @@ def test_it_is_measured_again_and_not_outdated():
     thing = plate(cuts=7)
     bpy.ops.object.medial_axis_thickness(limit=LIMIT)
     of = addon("bridge.thickness.thickness_object")
-    assert of.carrier_of(thing)[of.SHARE] == pytest.approx(1.0)
+    assert of.carrier_of(thing)["ma_thickness_share"] == pytest.approx(1.0)
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
     carrier = of.carrier_of(thing)
-    assert carrier[of.MINIMUM] == pytest.approx(LIMIT, rel=2e-4) and carrier[of.SHARE] == 0.0
+    assert carrier["ma_thickness_minimum"] == pytest.approx(LIMIT, rel=2e-4)
+    assert carrier["ma_thickness_share"] == 0.0
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     assert not addon("bridge.objects.source_state").has_changed(carrier, depsgraph)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 from medial_axis import library
-from medial_axis.core.samples.worst_doubt import worst_doubt
+from medial_axis.core.samples.doubts import worst_doubt
 from medial_axis.core.shape.shape import Shape
 from support import thin_solids
 

@@ -13,7 +13,7 @@ from medial_axis.core.axis.axis_warnings import axis_warnings
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
 from medial_axis.core.axis.levels import hierarchy_of
 from medial_axis.core.axis.topology import betti_words
-from medial_axis.core.machine.cache import CACHE
+from medial_axis.core.machine.cache import CACHE, bytes_of
 from medial_axis.core.samples.levels import Levels
 from medial_axis.core.settings import (
     OPTIONS,
@@ -181,7 +181,7 @@ def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
     assert curve.facets == 0 and len(curve.edges) > 0
     assert hierarchy_of(samples, found.settings, None) is hierarchy
     again = computed(shape, erode=2.0)
-    assert again.chosen.samples.levels is samples.levels and CACHE.analyses == before
+    assert again.chosen.samples.kept is samples.kept and CACHE.analyses == before
     assert same_axis(again.axis, medial_axis.extract(found, erode=2.0))
     medial_axis.extract(found, theta=1.0, rho=20.0, limb=9.0)  # levels of the even mesh
     assert hierarchy_of(samples, found.settings, None) is hierarchy
@@ -215,9 +215,9 @@ def test_a_hierarchy_is_returned_whatever_another_thread_does():
 def test_the_cache_counts_the_hierarchy():
     CACHE.clear()  # else it may be full and drop others
     found = computed(mesh_of(box(0.0, (1.0, 0.9, 0.8))), form=Form.PUBLISHED)
-    before, alone = CACHE.bytes, found.chosen.samples.bytes
+    before, alone = CACHE.bytes, bytes_of(found.chosen.samples)
     axis = refilter(found.key, Settings(side=Side.INNER))
-    grown = found.chosen.samples.bytes - alone
+    grown = bytes_of(found.chosen.samples) - alone
     assert grown > 100_000 and CACHE.bytes == before + grown
     sentence = refiltered_topology(found.key, axis, Form.CLEAN)
     assert sentence == "1 piece, no loop, no cavity, as the solid"

@@ -395,3 +395,11 @@ def test_import_reader_resolves_the_package_of_a_room():
         "ui.panels",
         "bridge.material",
     }
+
+
+def test_stored_properties_are_named_in_one_table():
+    """Files of users hold their names. Attributes of meshes have a table of their own, and are read in two files."""
+    used = re.compile(r"""(\[|\.get\(|\.pop\(|in \()f?["']ma_""")
+    paths = [*(ADDON / "bridge").rglob("*.py"), *(ADDON / "ui").rglob("*.py")]
+    found = {path.name for path in paths if used.search(path.read_text(encoding="utf-8"))}
+    assert found <= {"self_test.py", "filter.py"}

@@ -13,8 +13,8 @@ from medial_axis.core.settings import (
     SidesFrom,
     ThickenSettings,
 )
-from medial_axis.core.shape.outward_faces import OF_SHEETS, REPEATED, outward_shape
-from medial_axis.core.shape.shape import Shape
+from medial_axis.core.shape.outward_faces import outward_shape
+from medial_axis.core.shape.shape import OF_SHEETS, REPEATED, Shape
 from medial_axis.core.thickness.thicken import thicken
 from support import meshes
 from support.thick_meshes import block

@@ -9,11 +9,12 @@ import pytest
 from medial_axis import cli, library
 from medial_axis.core.machine import native
 from medial_axis.core.machine.progress import Progress
-from medial_axis.core.samples import choose_samples, topology_loop
+from medial_axis.core.samples import judge, next_amount
 from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
+from medial_axis.core.samples.doubts import Topology
+from medial_axis.core.samples.sample_spacing import Amount
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
-from medial_axis.core.settings import SamplingMode
 from medial_axis.core.shape.shape import Shape
 from support import meshes, thin_solids
 from support.readers import area_of
@@ -190,21 +191,14 @@ def test_automatic_finds_thin_walls_and_small_holes(solid):
 )
 def test_the_loop_goes_on_while_it_helps(monkeypatch, differences, passes):
     """The best of the passes is taken; `differences` are those that each pass would have."""
-    left = iter(differences)
-    samples = SimpleNamespace(
-        points=np.zeros((1, 3)), buried=0, walls=None, density=SimpleNamespace(dense_enough=True)
-    )
-    monkeypatch.setattr(topology_loop, "are_close", lambda _: False)
-    monkeypatch.setattr(topology_loop, "_finer", lambda *_: {})
-    monkeypatch.setattr(
-        topology_loop,
-        "_trial",
-        lambda *_: SimpleNamespace(differences=next(left), samples=samples),
-    )
-    progress = SimpleNamespace(begin_pass=lambda _: None, begin_share=lambda _: None)
-    request = SimpleNamespace(progress=progress, settings=SimpleNamespace(budget=1000))
-    start = SimpleNamespace(differences=10, samples=samples)
-    best, found = topology_loop._best(request, start, False, lambda *_: samples)
+    samples = SimpleNamespace(points=np.zeros((1, 3)), buried=0, walls_are_close=False)
+    samples.density, amount = SimpleNamespace(dense_enough=True), Amount(1, 1.0, flat=1.0)
+    monkeypatch.setattr(judge, "finer_in_pairs", lambda *_: amount)
+    plan = SimpleNamespace(given=SimpleNamespace(settings=SimpleNamespace(budget=1000)))
+    known = {"samples": samples, "amount": amount, "topology": object()}
+    made = [SimpleNamespace(differences=number, **known) for number in (10, *differences)]
+    count = next(k for k in range(2, 99) if not judge._next_in_pairs(plan, made[:k]))
+    best, found = judge._best_of(made[:count])
     assert found == passes and best.differences == differences[passes - 1]
 
 
@@ -221,18 +215,18 @@ def test_the_second_pass_in_pairs_is_denser_where_it_has_to_be(
     monkeypatch, missed, doubts, follows
 ):
     spacings = {"own": [3.0, 3.0], "density": [2.0], "doubts": [1.5]}
-    amount = {"sizing": (np.zeros((1, 3)), np.array(spacings["density"]))}
-    monkeypatch.setattr(topology_loop, "next_amount", lambda *_: amount)
+    amount = Amount(1, 1.0, sizing=(np.zeros((1, 3)), np.array(spacings["density"])))
+    monkeypatch.setattr(next_amount, "next_amount", lambda *_: amount)
     samples = SimpleNamespace(
         points=np.array([(0.0, 0.0, 0.0), (9.0, 0.0, 0.0)]),
         apart=np.array(spacings["own"]),
-        walls=SimpleNamespace(missed=missed, are_missed=missed > 0.01),
-        buried=0,
+        walls=SimpleNamespace(missed=missed),
+        walls_are_close=missed > 0.01,
+        by_faces=(1, 0, 0),
     )
-    places, gaps = np.full((doubts, 3), 1.0), np.full(doubts, 5.0)
-    trial = SimpleNamespace(samples=samples, places=places, gaps=gaps, differences=7)
-    request = SimpleNamespace(settings=SimpleNamespace(sampling=SamplingMode.AUTOMATIC))
-    sites, apart = topology_loop._finer(request, trial, 1, 1000)["sizing"]
+    topology = Topology((1, 7, 0), np.full((doubts, 3), 1.0), np.full(doubts, 5.0))
+    plan = SimpleNamespace(first=amount)
+    sites, apart = next_amount.finer_in_pairs(plan, samples, topology, 1, 1000).sizing
     assert apart.tolist() == [s for name in follows for s in spacings[name]]
     assert len(sites) == len(apart)
 
@@ -253,7 +247,7 @@ def test_a_thin_tube_of_few_flat_sides_takes_one_pass_in_pairs(sides, wall):
 def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):
     mesh = thin_solids.turned(thin_solids.union(((0, 0, 0), (1, 2, 0.7))))
     found = library.compute(*mesh, side="inner")
-    monkeypatch.setattr(choose_samples, "closes", lambda *_: False)
+    monkeypatch.setattr(judge, "_compares", lambda *_: False)
     plain = library.compute(*mesh, side="inner")
     assert found.chosen.reason == plain.chosen.reason
     for name in ("vertices", "radius", "face_vertices"):

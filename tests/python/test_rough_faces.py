@@ -187,7 +187,7 @@ def test_the_report_has_the_samples_of_the_axis():
     settings = Settings(sampling=SamplingMode.VERTICES, form=Form.PUBLISHED)
     report = report_sampling(Shape(points, triangles), settings)
     axis = compute(points, triangles, settings)
-    assert report.chosen.samples.key == axis.key
+    assert report.chosen.samples.kept.key == axis.key
     assert np.array_equal(report.vertices, axis.chosen.samples.points)
     assert any("were found in the faces" in said for said in report.warnings)
     assert np.allclose(report.moved, np.linalg.norm(report.vertices - points, axis=1))

@@ -47,6 +47,7 @@ def test_automatic(medial, triangles, normals, chosen):
     """The faces when they close a volume, else the normals, else Tight Cocone; an explicit choice gives the same."""
     found = medial.MedialAnalysis(CLOSED[0], triangles, normals=normals)
     assert found.sides_from == getattr(medial.SidesFrom, chosen)
+    assert medial.automatic_sides(triangles is CLOSED[1], normals is not None) == found.sides_from
     assert (found.tight_cocone is None) == (chosen != "TIGHT_COCONE")
     asked = analysis_of(medial, CLOSED[0], triangles, chosen, normals=normals)
     assert asked.sides_from == found.sides_from and np.array_equal(asked.side, found.side)

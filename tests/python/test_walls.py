@@ -3,14 +3,16 @@
 
 import json
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.samples.analysed import AnalysedSamples
+from medial_axis.core.samples.analysed import Analysed
+from medial_axis.core.samples.decide import Effort
 from medial_axis.core.samples.density import Density
-from medial_axis.core.samples.sample_spacing import next_amount
+from medial_axis.core.samples.next_amount import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
 from support import meshes, thin_solids
@@ -252,10 +254,8 @@ def test_wanted_spacings_show_what_is_missed():
 def test_no_spacing_is_wanted_above_that_of_the_first_pass():
     """Vertices that are samples, too, make the mean spacing smaller than the distance of the other samples."""
     places, far = np.eye(3), np.full(3, np.inf)
-    samples = AnalysedSamples(
+    samples = Analysed(
         points=places,
-        kinds=None,
-        normals=None,
         analysis=None,
         density=Density(places, np.ones(3), far, places[:0], finest=0.5, limit=0.25),
         spacing=0.5,
@@ -264,7 +264,8 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
             distance=np.array([0.1, 0.6, 1.5]),
         ),
     )
-    amount = next_amount(samples, 0.0625, 0.0625, 200)
-    sites, spacings = amount["sizing"]
-    assert sites.tolist() == places.tolist() and spacings.tolist() == [0.05, 0.3, 0.5]
-    assert amount["count"] == 200
+    plan = SimpleNamespace(effort=Effort(2, 1.0, 0.0625, 0.0625))
+    amount = next_amount(plan, samples, 200)
+    sites, spacings = amount.sizing
+    assert amount.count == 200 and sites.tolist() == places.tolist()
+    assert spacings.tolist() == [0.05, 0.3, 0.5]

@@ -11,7 +11,8 @@ import numpy as np
 
 from ...core.axis.compute import Computation
 from ...core.settings import Look
-from ..objects.output_object import OF_PART, SOURCE, source_of
+from ..mesh import stored
+from ..objects.output_object import collection_of, remove_object, source_of
 from .axis_object import RESULT, SUFFIX, write_result
 from .shown_axis import ShownAxis
 
@@ -24,46 +25,25 @@ def write_result_of_part(
     look: Look,
     shown: ShownAxis,
 ) -> bpy.types.Object:
-    """Make the result of a part of a source, or update the existing one, as `write_result` does.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Make the result of a part of a source, or update the existing one, as `write_result` does."""
     product = replace(RESULT, suffix=f"{SUFFIX} {part}", part=part)
     is_new = product.of(source) is None
     result = write_result(source, computation, frame, look, product, shown=shown)
     if is_new:
-        result[OF_PART] = part
+        result[stored.OF_PART] = part
         for collection in result.users_collection:
             collection.objects.unlink(result)
-        _collection(source).objects.link(result)
+        marks = {stored.SOURCE: source, stored.OF_PART: ""}
+        collection_of(marks, f"{source.name} Medial Axes", source).objects.link(result)
     return result
 
 
 def remove_other_parts(made: Collection[bpy.types.Object]) -> None:
     """Remove earlier results of parts of the same sources."""
     sources = {source_of(thing) for thing in made}
-    parts = [t for t in bpy.data.objects if t.library is None and OF_PART in t and RESULT.has(t)]
+    parts = [
+        t for t in bpy.data.objects if t.library is None and stored.OF_PART in t and RESULT.has(t)
+    ]
     for thing in parts:
         if thing not in made and source_of(thing) in sources:
-            mesh = thing.data
-            bpy.data.objects.remove(thing)
-            if not mesh.users:
-                bpy.data.meshes.remove(mesh)
-
-
-def _collection(source: bpy.types.Object) -> bpy.types.Collection:
-    """The collection of the results of parts of a source, made next to it where there is none."""
-    for collection in bpy.data.collections:
-        if (
-            collection.library is None
-            and OF_PART in collection
-            and collection.get(SOURCE) == source
-        ):
-            return collection
-    made = bpy.data.collections.new(f"{source.name} Medial Axes")
-    made[SOURCE], made[OF_PART] = source, ""
-    above = next((c for c in source.users_collection if c.library is None), None)
-    (above or bpy.context.scene.collection).children.link(made)
-    return made
+            remove_object(thing)

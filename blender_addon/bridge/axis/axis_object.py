@@ -25,53 +25,25 @@ from ...core.settings import (
     Settings,
     Side,
 )
+from ..mesh import stored
 from ..mesh.attributes import RADIUS
 from ..mesh.colours import colour_mesh, colour_parts, remember_colours
-from ..mesh.material import RADIUS_MAX, RADIUS_MIN, radius_material
+from ..mesh.material import radius_material
 from ..mesh.write_mesh import new_axis_mesh
 from ..nodes.wires import show_wires
-from ..objects.output_object import (
-    DENSITY,
-    SAMPLED,
-    SECONDS,
-    Product,
-    place,
-    remember,
-    replace_mesh,
-)
+from ..objects.output_object import Product, place, remember, replace_mesh
 from .shown_axis import ShownAxis, box_of, shown_axis
 from .slider_ranges import remember_ranges
 from .structure_object import remember_structure
 
 SUFFIX = " Medial Axis"
-ANALYSIS = "ma_analysis"
-DRAFT = "ma_draft"  # there where a quick answer with few samples is shown; the exact one takes its place
-ASKED = "ma_asked"  # the options of the analysis as they were asked for; Automatic may have chosen others
-INSIDE = "ma_inside"  # how inside was distinguished from outside, and why: a sentence
-UNBOUNDED = "ma_unbounded"
-ZERO_AREA = "ma_zero_area"
-BOX = "ma_box"  # of the samples: three lowest coordinates, three highest
-PIECES = "ma_pieces"
-CRUMBS = "ma_crumbs_hidden"  # pieces that are not there because they are crumbs
-HIDDEN = "ma_hidden"  # facets that are not there because of the look
-LIGHT = "ma_light"
-VERDICT = "ma_verdict"  # the sentence that matters most
-# Shares of the facets that one of the two conditions keeps alone.
-ONLY_RATIO = "ma_only_ratio"
-ONLY_ANGLE = "ma_only_angle"
-BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
-TOPOLOGY = "ma_topology"  # the same in a sentence
-PLACES = "ma_places"  # a sentence: where balls end; only of clean forms and curves
-REFUSED = "ma_refused"  # vertices at which no ball fits the faces
-MESH = "ma_source_mesh"  # a sentence: the connected parts of the source, and how they were read
-TURNED = "ma_turned"  # triangles of the source that looked inward and were read the other way round
 # The whole axis, its own master.
 ALL = Look(within=0.0, crumbs=0.0)
 # The values of options that earlier versions did not have.
 _EARLIER = {"form": Form.PUBLISHED, "crisp": False, "mesh": Mesh.VORONOI}
 
 
-RESULT = Product(SUFFIX, (ANALYSIS,), material=radius_material)
+RESULT = Product(SUFFIX, (stored.ANALYSIS,), material=radius_material)
 is_result, result_of, check_writable = RESULT.has, RESULT.of, RESULT.check_writable
 
 
@@ -111,12 +83,12 @@ def write_result(
     axis, settings = shown.axis, computation.settings
     result, _ = product.write_mesh(source, partial(_axis_mesh, shown, look), between_steps)
     place(result, frame)
-    if result.get("ma_side") != settings.side.name:
+    if result.get(stored.of_option("side")) != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface
     show_wires(result, axis, look.lone_points)
-    result[BOX] = box
+    result[stored.BOX] = box
     _remember(result, source, computation)
-    result[TURNED] = computation.turned
+    result[stored.TURNED] = computation.turned
     _remember_shown(result, shown, settings, look)
     return result
 
@@ -135,19 +107,19 @@ def update_result(
     """
     replace_mesh(result, partial(_axis_mesh, shown, look), between_steps)
     show_wires(result, shown.axis, look.lone_points)
-    result[TOPOLOGY] = topology
+    result[stored.TOPOLOGY] = topology
     _remember_shown(result, shown, settings, look)
 
 
 def box_on(result: bpy.types.Object) -> list[float] | None:
     """The box of the samples of a result, as `box_of` gives it; None where a result has none."""
-    found = result.get(BOX)
+    found = result.get(stored.BOX)
     return list(found) if hasattr(found, "__len__") else None
 
 
 def radius_range(result: bpy.types.Object) -> tuple[float, float]:
     """The smallest and the largest radius."""
-    return result.get(RADIUS_MIN, 0.0), result.get(RADIUS_MAX, 0.0)
+    return result.get(stored.RADIUS_MIN, 0.0), result.get(stored.RADIUS_MAX, 0.0)
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
@@ -159,7 +131,7 @@ def settings_of(result: bpy.types.Object) -> Settings:
     for name, option in OPTIONS.items():
         earlier = _EARLIER.get(name, option.default)
         try:
-            values[name] = _value_of(option, result.get(f"ma_{name}", earlier))
+            values[name] = _value_of(option, result.get(stored.of_option(name), earlier))
         except (KeyError, TypeError, ValueError):
             values[name] = earlier
     return Settings(**values)
@@ -172,7 +144,7 @@ def asked_of(settings: Settings) -> dict[str, Any]:
 
 def asked_on(result: bpy.types.Object) -> dict[str, Any] | None:
     """The same of a result; None where an earlier version made it."""
-    found = result.get(ASKED)
+    found = result.get(stored.ASKED)
     return found.to_dict() if hasattr(found, "to_dict") else None
 
 
@@ -200,7 +172,7 @@ def _value_of(option: Any, value: Any) -> Any:
 
 def look_of(result: bpy.types.Object) -> Look:
     """The look of a result; options that an older version did not remember have the value of that version."""
-    return Look(**{name: result.get(f"ma_{name}", getattr(ALL, name)) for name in LOOKS})
+    return Look(**{name: result.get(stored.of_option(name), getattr(ALL, name)) for name in LOOKS})
 
 
 def _axis_mesh(shown: ShownAxis, look: Look, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
@@ -219,16 +191,16 @@ def _shows_parts(axis: MedialAxis, look: Look) -> bool:
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
-    result.pop(DRAFT, None)
-    result[ANALYSIS], result[ASKED] = computation.key, asked_of(computation.asked)
-    result[INSIDE] = str(computation.sides)
-    result[MESH] = str(computation.mesh or "")
-    result[TOPOLOGY] = computation.topology
-    result[SAMPLED] = computation.chosen.reason
-    result[DENSITY] = str(computation.density)
-    result[SECONDS] = computation.seconds
+    result.pop(stored.DRAFT, None)
+    result[stored.ANALYSIS], result[stored.ASKED] = computation.key, asked_of(computation.asked)
+    result[stored.INSIDE] = str(computation.sides)
+    result[stored.SOURCE_MESH] = str(computation.mesh or "")
+    result[stored.TOPOLOGY] = computation.topology
+    result[stored.SAMPLED] = computation.chosen.reason
+    result[stored.DENSITY] = str(computation.density)
+    result[stored.SECONDS] = computation.seconds
     found = verdict(computation.chosen, computation.warnings)
-    result[LIGHT], result[VERDICT] = found.light.name, found.sentence
+    result[stored.LIGHT], result[stored.VERDICT] = found.light.name, found.sentence
 
 
 def _remember_shown(
@@ -237,17 +209,17 @@ def _remember_shown(
     """Stores the figures of the shown axis for the panel, and the settings and the look that made it."""
     axis = shown.axis
     for name in OPTIONS:
-        result[f"ma_{name}"] = _plain(name, settings)
+        result[stored.of_option(name)] = _plain(name, settings)
     for name in LOOKS:
-        result[f"ma_{name}"] = getattr(look, name)
-    result[UNBOUNDED] = axis.unbounded
-    result[ZERO_AREA] = axis.zero_area
-    result[HIDDEN], result[CRUMBS] = shown.hidden, shown.crumbs
-    result[PIECES] = shown.pieces
-    result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
+        result[stored.of_option(name)] = getattr(look, name)
+    result[stored.UNBOUNDED] = axis.unbounded
+    result[stored.ZERO_AREA] = axis.zero_area
+    result[stored.HIDDEN], result[stored.CRUMBS] = shown.hidden, shown.crumbs
+    result[stored.PIECES] = shown.pieces
+    result[stored.ONLY_RATIO], result[stored.ONLY_ANGLE] = _only(axis, settings)
     _remember_level(result, axis)
-    result[RADIUS_MIN] = float(axis.radius.min())
-    result[RADIUS_MAX] = float(axis.radius.max())
+    result[stored.RADIUS_MIN] = float(axis.radius.min())
+    result[stored.RADIUS_MAX] = float(axis.radius.max())
     start, end = colours_of_radii(axis.radius)
     by_radius = look.colours and not _shows_parts(axis, look)
     remember_colours(result, RADIUS.name if by_radius else "", start, end)
@@ -260,9 +232,10 @@ def _remember_level(result: bpy.types.Object, axis: MedialAxis) -> None:
     """Stores what only a clean form or a curve has."""
     level = axis.level
     if level is not None:
-        result[BETTI], result[PLACES], result[REFUSED] = level.betti, level.places, level.refused
+        result[stored.BETTI], result[stored.PLACES] = level.betti, level.places
+        result[stored.REFUSED] = level.refused
         return
-    for name in (BETTI, PLACES, REFUSED):
+    for name in (stored.BETTI, stored.PLACES, stored.REFUSED):
         result.pop(name, None)
 
 

@@ -11,16 +11,17 @@ from mathutils import Matrix
 from ...core.errors import MedialAxisError
 from ...core.settings import Look
 from ...core.shape.shape import Shape
-from ..objects.output_object import SECONDS, follow, is_gone, source_of
+from ..mesh import stored
+from ..objects.output_object import follow, is_gone, source_of
 from ..objects.read_object import read_object
 from ..objects.source_state import forget_answer, remember_state, state_of
-from .axis_object import DRAFT, look_of, result_of, write_result
+from .axis_object import look_of, result_of, write_result
 from .shown_axis import Computed
 
 LIVE = "medial_axis_auto_update"  # a property of every object; off where it was never set
 
 # A coarse answer leaves these as they were: the next computation asks for them.
-_NOT_COARSE = (SECONDS, "ma_crisp")
+_NOT_COARSE = (stored.SECONDS, stored.of_option("crisp"))
 
 
 @dataclass(frozen=True)
@@ -68,16 +69,11 @@ def is_at_rest(result: bpy.types.Object) -> bool:
 
 def is_slow(result: bpy.types.Object) -> bool:
     """Return whether the last computation took more than a second, so that a coarse answer comes first."""
-    return result.get(SECONDS, 0.0) > 1.0
+    return result.get(stored.SECONDS, 0.0) > 1.0
 
 
 def read_live(result: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> LiveSource:
-    """Read the source of a result as it is now.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Read the source of a result as it is now."""
     source = source_of(result)
     shape = read_object(source, depsgraph)
     world = source.evaluated_get(depsgraph).matrix_world.copy()
@@ -88,10 +84,6 @@ def write_live(read: LiveSource, found: Computed, is_coarse: bool) -> None:
     """Give a result the axis of its source as it was read; nothing, where the result is gone or live no more.
 
     A coarse result stays outdated, as the panel says, until the full one is there.
-
-    Raises
-    ------
-    MedialAxisError
     """
     result = bpy.data.objects.get(read.name)
     if result is None or result not in live_results():
@@ -106,7 +98,7 @@ def write_live(read: LiveSource, found: Computed, is_coarse: bool) -> None:
     if is_coarse:
         for name, value in kept.items():
             result[name] = value
-        result[DRAFT] = True
+        result[stored.DRAFT] = True
         forget_answer(result)
     else:
         remember_state(result, read.state)

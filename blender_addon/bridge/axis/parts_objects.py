@@ -13,14 +13,14 @@ from ...core.arrays import Floats, Ints
 from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
+from ..mesh import stored
 from ..mesh.attributes import PART, RADIUS, Attribute
-from ..mesh.colours import END, START, remember_colours
+from ..mesh.colours import remember_colours
 from ..mesh.mesh_arrays import select_faces, selected_faces
 from ..mesh.write_mesh import new_mesh
-from ..objects.output_object import SOURCE, VERSION, is_gone
+from ..objects.output_object import collection_of, is_gone, remove_object
 from .read_axis import read_axis
 
-NUMBER = "ma_part_number"  # of the part that an object is
 MOST = 1000  # objects
 
 
@@ -85,24 +85,18 @@ def separate_parts(result: bpy.types.Object) -> bpy.types.Collection:
     """
     axis = with_agreeing_facets(read_axis(result))
     sheets = [_sheet(axis, number) for number in range(axis.structure.parts)]
-    collection = _collection(result)
-    for thing in [t for t in collection.objects if t.get(SOURCE) == result and NUMBER in t]:
-        mesh = thing.data
-        bpy.data.objects.remove(thing)
-        if not mesh.users:
-            bpy.data.meshes.remove(mesh)
+    collection = collection_of({stored.SOURCE: result}, f"{result.name} Parts", result)
+    for thing in [
+        t for t in collection.objects if t.get(stored.SOURCE) == result and stored.PART_NUMBER in t
+    ]:
+        remove_object(thing)
     for number, sheet in enumerate(sheets):
         _add_object(collection, result, sheet, number)
     return collection
 
 
 def with_agreeing_facets(axis: MedialAxis) -> MedialAxis:
-    """The axis with the facets of each part turned alike.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """The axis with the facets of each part turned alike."""
     structure = axis.structure
     if structure is None:
         raise InvalidInputError(
@@ -128,18 +122,6 @@ def _sheet(axis: MedialAxis, number: int) -> _Sheet:
     )
 
 
-def _collection(result: bpy.types.Object) -> bpy.types.Collection:
-    """The collection of the parts of a result, made where there is none."""
-    for collection in bpy.data.collections:
-        if collection.library is None and collection.get(SOURCE) == result:
-            return collection
-    made = bpy.data.collections.new(f"{result.name} Parts")
-    made[SOURCE] = result
-    above = next((c for c in result.users_collection if c.library is None), None)
-    (above or bpy.context.scene.collection).children.link(made)
-    return made
-
-
 def _add_object(
     collection: bpy.types.Collection, result: bpy.types.Object, sheet: _Sheet, number: int
 ) -> None:
@@ -150,14 +132,22 @@ def _add_object(
         mesh.materials.append(material)
     thing = bpy.data.objects.new(name, mesh)
     thing.matrix_world = result.matrix_world
-    thing[SOURCE], thing[VERSION], thing[NUMBER] = result, __version__, number
+    thing[stored.SOURCE], thing[stored.VERSION], thing[stored.PART_NUMBER] = (
+        result,
+        __version__,
+        number,
+    )
     thing.show_in_front, thing.color = result.show_in_front, result.color
-    remember_colours(thing, "", result.get(START, 0.0), result.get(END, 0.0))
+    remember_colours(
+        thing, "", result.get(stored.COLOUR_START, 0.0), result.get(stored.COLOUR_END, 0.0)
+    )
     collection.objects.link(thing)
 
 
 def parts_of(result: bpy.types.Object) -> list[bpy.types.Object]:
     """The objects that were made of the parts of a result."""
     return [
-        t for t in bpy.data.objects if NUMBER in t and t.get(SOURCE) == result and not is_gone(t)
+        t
+        for t in bpy.data.objects
+        if stored.PART_NUMBER in t and t.get(stored.SOURCE) == result and not is_gone(t)
     ]

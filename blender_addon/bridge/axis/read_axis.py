@@ -14,10 +14,11 @@ from ...core.arrays import Floats, Ints
 from ...core.axis.medial_axis import LevelValues, MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
+from ..mesh import stored
 from ..mesh.attributes import Attribute, attributes, level_attributes
 from ..mesh.mesh_arrays import read_corner_edges, read_edges, read_polygons, read_positions
 from ..objects.output_object import is_gone
-from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
+from .axis_object import is_result, result_of
 from .reduced_object import is_reduced
 from .structure_object import read_structure
 
@@ -49,8 +50,8 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         vertices=vertices,
         face_offsets=offsets,
         face_vertices=corners,
-        unbounded=int(result.get(UNBOUNDED, 0)),
-        zero_area=int(result.get(ZERO_AREA, 0)),
+        unbounded=int(result.get(stored.UNBOUNDED, 0)),
+        zero_area=int(result.get(stored.ZERO_AREA, 0)),
         edges=edges,
         level=level,
         structure=structure,
@@ -89,11 +90,11 @@ def _level(
     mesh: bpy.types.Mesh, alone: NDArray[np.intp], result: bpy.types.Object
 ) -> LevelValues | None:
     """The level of a clean form or a curve; None for an axis as published."""
-    if BETTI not in result:
+    if stored.BETTI not in result:
         return None
     fields = _fields(mesh, level_attributes(), result.name)
     fields["limb"] = fields["limb"][alone]
-    pieces, loops, cavities = result[BETTI]
+    pieces, loops, cavities = result[stored.BETTI]
     return LevelValues(betti=(pieces, loops, cavities), **fields)
 
 

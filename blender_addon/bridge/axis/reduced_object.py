@@ -11,26 +11,19 @@ from ... import __version__
 from ...core.axis.colours import radius_range as colours_of_radii
 from ...core.axis.medial_axis import MedialAxis
 from ...core.settings import Side
+from ..mesh import stored
 from ..mesh.attributes import RADIUS
-from ..mesh.material import RADIUS_MAX, RADIUS_MIN, radius_material
+from ..mesh.material import radius_material
 from ..mesh.write_mesh import new_axis_mesh
 from ..nodes.wires import show_wires
-from ..objects.output_object import SOURCE, VERSION, Product, follow_like, source_of
+from ..objects.output_object import Product, follow_like, source_of
 
-REDUCED = "ma_reduced"  # the wanted number of vertices; it marks the object
-
-
-REDUCED_MESH = Product(" Small Mesh", (REDUCED,), material=radius_material)
+REDUCED_MESH = Product(" Small Mesh", (stored.REDUCED,), material=radius_material)
 is_reduced, reduced_of = REDUCED_MESH.has, REDUCED_MESH.of
 
 
 def check_reduced_writable(result: bpy.types.Object) -> None:
-    """Check that `write_reduced` can change the object that there is.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Check that `write_reduced` can change the object that there is."""
     REDUCED_MESH.check_writable(source_of(result) or result)
 
 
@@ -67,8 +60,11 @@ def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> 
 def _remember(
     thing: bpy.types.Object, source: bpy.types.Object, axis: MedialAxis, vertices: int
 ) -> None:
-    thing[REDUCED] = vertices
-    thing[SOURCE], thing[VERSION] = source, __version__
-    thing["ma_side"] = Side.INNER.name
-    thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    thing[stored.REDUCED] = vertices
+    thing[stored.SOURCE], thing[stored.VERSION] = source, __version__
+    thing[stored.of_option("side")] = Side.INNER.name
+    thing[stored.RADIUS_MIN], thing[stored.RADIUS_MAX] = (
+        float(axis.radius.min()),
+        float(axis.radius.max()),
+    )
     thing.update_tag()

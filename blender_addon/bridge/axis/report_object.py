@@ -13,42 +13,27 @@ from numpy.typing import NDArray
 from ...core.arrays import Floats
 from ...core.errors import InvalidInputError
 from ...core.samples.sampling_report import SamplingReport
+from ..mesh import stored
 from ..mesh.attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.evaluated_rows import keeps_rows
-from ..mesh.material import LIMIT, epsilon_material
+from ..mesh.material import epsilon_material
 from ..mesh.write_mesh import new_mesh
-from ..objects.output_object import (
-    DENSITY,
-    DUPLICATES,
-    POINTS,
-    SAMPLED,
-    SOURCE,
-    WARNINGS,
-    Product,
-    place,
-    remember,
-)
+from ..objects.output_object import Product, place, remember
 from .feature_size import write_feature_size
 
-MEDIAN = "ma_epsilon_median"
-P95 = "ma_epsilon_p95"
-SHARE = "ma_epsilon_share"
-SHARE_OF_ALL = "ma_epsilon_share_of_all"
-WORST = "ma_epsilon_worst"
-WORST_PLACES = "ma_epsilon_worst_places"
 # A source with at least this many vertices for each sample shows a report well enough.
 _ENOUGH = 0.25
 _SCALE = 2.0  # where the colours end, in limits
 
 
-REPORT = Product(" Sampling", (SHARE, SOURCE), material=epsilon_material)
+REPORT = Product(" Sampling", (stored.EPSILON_SHARE, stored.SOURCE), material=epsilon_material)
 is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.check_writable
 
 
 def has_report(thing: bpy.types.Object) -> bool:
     """Return whether this is a report, or a source that carries its report itself."""
-    return thing.type == "MESH" and SHARE in thing
+    return thing.type == "MESH" and stored.EPSILON_SHARE in thing
 
 
 def write_report(
@@ -85,15 +70,15 @@ def write_report(
 
 def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
     density, worst = found.density, found.density.worst
-    report[SAMPLED] = found.chosen.reason
-    report[DENSITY] = str(density)
-    report[LIMIT] = density.limit
-    report[MEDIAN] = density.median
-    report[P95] = density.p95
-    report[SHARE] = density.share
-    report[SHARE_OF_ALL] = density.share_of_all
-    report[WORST] = [epsilon for _, epsilon in worst]
-    report[WORST_PLACES] = [number for where, _ in worst for number in where]
+    report[stored.SAMPLED] = found.chosen.reason
+    report[stored.DENSITY] = str(density)
+    report[stored.EPSILON_LIMIT] = density.limit
+    report[stored.EPSILON_MEDIAN] = density.median
+    report[stored.EPSILON_P95] = density.p95
+    report[stored.EPSILON_SHARE] = density.share
+    report[stored.EPSILON_SHARE_OF_ALL] = density.share_of_all
+    report[stored.EPSILON_WORST] = [epsilon for _, epsilon in worst]
+    report[stored.EPSILON_WORST_PLACES] = [number for where, _ in worst for number in where]
     report.update_tag()
 
 
@@ -156,9 +141,9 @@ def write_on_source(
         alone = not len(source.data.color_attributes)  # else renders show those of the artist
         colour_mesh(source.data, values, 0.0, _SCALE * found.density.limit, render=alone)
     source.data.update()
-    source[POINTS] = len(found.vertices)
-    source[DUPLICATES] = found.chosen.samples.analysis.duplicates
-    source[WARNINGS] = "\n".join(found.warnings)
+    source[stored.POINTS] = len(found.vertices)
+    source[stored.DUPLICATES] = found.chosen.samples.analysis.duplicates
+    source[stored.WARNINGS] = "\n".join(found.warnings)
     of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
     remember_colours(source, of, 0.0, end)
     _remember_density(source, found)

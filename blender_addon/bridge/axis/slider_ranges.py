@@ -9,26 +9,18 @@ import numpy as np
 
 from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.slider_range import SliderRange
-
-RANGES = {
-    "simplify": "ma_simplify_range",
-    "erode": "ma_erode_range",
-    "spike": "ma_spike_range",
-    "limb": "ma_limb_range",
-}
-_REMOVALS = "ma_removals"  # how many loops and branches of a curve Detail can leave out
-_GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
+from ..mesh import stored
 
 
 def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
     """Keep the ranges of an axis on its object, or forget older ones."""
     ranges = {} if axis.level is None else axis.level.ranges
-    for name, key in RANGES.items():
+    for name, key in stored.RANGES.items():
         if found := ranges.get(name):
             result[key] = [*found.lengths, *found.shares]
         else:
             result.pop(key, None)
-    for key, name in ((_GAP, "gap"), (_REMOVALS, "removals")):
+    for key, name in ((stored.SIMPLIFY_GAP, "gap"), (stored.REMOVALS, "removals")):
         value = getattr(axis.level, name, None)
         if value is None:
             result.pop(key, None)
@@ -38,18 +30,18 @@ def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
 
 def gap_on(result: bpy.types.Object | None) -> float | None:
     """The value of Simplify between thin sheets and others; None where they have no clear gap."""
-    found = None if result is None else result.get(_GAP)
+    found = None if result is None else result.get(stored.SIMPLIFY_GAP)
     return found if isinstance(found, float) and 0.0 < found < 100.0 else None
 
 
 def detail_is_dead(result: bpy.types.Object | None) -> bool:
     """Whether a curve has nothing that Detail could leave out."""
-    return result is not None and result.get(_REMOVALS) == 0
+    return result is not None and result.get(stored.REMOVALS) == 0
 
 
 def range_on(result: bpy.types.Object | None, name: str) -> SliderRange | None:
     """The range of a slider; None where the result has none, or someone changed it to what is none."""
-    found = None if result is None else result.get(RANGES[name])
+    found = None if result is None else result.get(stored.RANGES[name])
     try:
         lengths, shares = np.array(found, np.float64).reshape(2, -1)
     except (TypeError, ValueError):

@@ -13,11 +13,10 @@ from ...core.arrays import Ints
 from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.structure import FIELDS, Structure
 from ...core.axis.structure_table import counts_of
+from ..mesh import stored
 from ..mesh.attributes import structure_attributes
 from ..mesh.mesh_arrays import read_edges
 
-TABLE = "ma_structure"  # the fields of `Structure` that are about parts, curves and nodes, as JSON
-COUNTS = "ma_structure_counts"  # sheets, seams, rims, creases, junctions, corners
 _OF_TABLE = tuple(name for name in FIELDS if name.startswith(("part_", "curve_", "node_")))
 
 
@@ -25,19 +24,19 @@ def remember_structure(result: bpy.types.Object, axis: MedialAxis) -> None:
     """Keep the table of an axis on its object, or forget an older one."""
     structure = axis.structure
     if structure is None:
-        for name in (TABLE, COUNTS):
+        for name in (stored.STRUCTURE, stored.STRUCTURE_COUNTS):
             if name in result:
                 del result[name]
         return
     table = {name: getattr(structure, name).tolist() for name in _OF_TABLE}
-    result[TABLE] = json.dumps(table, separators=(",", ":"))
-    result[COUNTS] = list(counts_of(structure).values())
+    result[stored.STRUCTURE] = json.dumps(table, separators=(",", ":"))
+    result[stored.STRUCTURE_COUNTS] = list(counts_of(structure).values())
 
 
 def counts_on(result: bpy.types.Object) -> dict[str, int]:
     """The numbers of sheets, seams, rims, creases, junctions and corners; nothing where they are not known."""
     names = ("sheets", "seams", "rims", "creases", "junctions", "corners")
-    found = list(result.get(COUNTS, ()))
+    found = list(result.get(stored.STRUCTURE_COUNTS, ()))
     return dict(zip(names, found, strict=True)) if len(found) == len(names) else {}
 
 
@@ -55,13 +54,13 @@ def read_structure(
     generators : (f, 2) int32
         As the mesh has them: exchanged where the facet was turned.
     """
-    if TABLE not in result:
+    if stored.STRUCTURE not in result:
         return None
     table = {
         name: np.array(
             values, np.float64 if name.endswith(("area", "radius", "length")) else np.int32
         )
-        for name, values in json.loads(result[TABLE]).items()
+        for name, values in json.loads(result[stored.STRUCTURE]).items()
     }
     columns = {a.field: _column(mesh, a.name, a.domain) for a in structure_attributes()}
     if any(column is None for column in columns.values()):

@@ -10,13 +10,9 @@ import bpy
 from numpy.typing import NDArray
 
 from ...core.axis.colours import colours, part_colours
+from . import stored
 
 COLOUR = "ma_color"
-# Custom properties of a coloured object: the numbers at the first and at the last colour of the scale, and the name of
-# the attribute that was coloured.
-START = "ma_color_start"
-END = "ma_color_end"
-OF = "ma_color_of"
 
 
 def colour_mesh(
@@ -73,23 +69,28 @@ def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
 def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:
     """Keep on an object which attribute `ma_color` shows, "" where there is none, and its range, for the legend and the
     materials; also on what shares its mesh and its colours: duplicates, and the solid that is rebuilt of it."""
-    thing[OF] = of
+    thing[stored.COLOUR_OF] = of
     for other in _coloured_like(thing):
-        other[OF], other[START], other[END] = of, float(start), float(end)
+        other[stored.COLOUR_OF] = of
+        other[stored.COLOUR_START], other[stored.COLOUR_END] = float(start), float(end)
         other.update_tag()
 
 
 def _coloured_like(thing: bpy.types.Object) -> list[bpy.types.Object]:
     if thing.data.users == 1:
         return [thing]
-    return [other for other in bpy.data.objects if other.data == thing.data and OF in other]
+    return [
+        other
+        for other in bpy.data.objects
+        if other.data == thing.data and stored.COLOUR_OF in other
+    ]
 
 
 def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:
     """Return (name of the attribute, start, end) of what an object is coloured by; None when it is not coloured."""
-    if not thing.get(OF):
+    if not thing.get(stored.COLOUR_OF):
         return None
-    return thing[OF], thing[START], thing[END]
+    return thing[stored.COLOUR_OF], thing[stored.COLOUR_START], thing[stored.COLOUR_END]
 
 
 def _attribute(mesh: bpy.types.Mesh) -> bpy.types.Attribute:

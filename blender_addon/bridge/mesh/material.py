@@ -10,16 +10,14 @@ from __future__ import annotations
 import bpy
 
 from ...core.axis.colours import SCALE
+from . import stored
 from .attributes import EPSILON, RADIUS
-from .colours import COLOUR, END, START
+from .colours import COLOUR
 
 NAME = "Medial Axis Radius"
-RADIUS_MIN = "ma_radius_min"
-RADIUS_MAX = "ma_radius_max"
 THICKNESS = "ma_thickness"
 EPSILON_NAME = "Medial Axis Epsilon"
 THICKNESS_NAME = "Medial Axis Thickness"
-LIMIT = "ma_epsilon_limit"
 COLOUR_NAME = "Medial Axis Colour"
 FLAT = (0.08, 0.42, 0.5, 1.0)  # of results without colours; orange is what Blender selects with
 
@@ -68,7 +66,9 @@ def _new_material(name: str, value: str) -> bpy.types.Material:
     # By index: names of sockets differ between versions. Attribute has Color, Vector, Factor,
     # Alpha; Map Range has Value, From Min, From Max, To Min, To Max.
     kinds = ("GEOMETRY", "OBJECT", "OBJECT")
-    for socket, (kind, attribute) in enumerate(zip(kinds, (value, START, END), strict=True)):
+    for socket, (kind, attribute) in enumerate(
+        zip(kinds, (value, stored.COLOUR_START, stored.COLOUR_END), strict=True)
+    ):
         node = _attribute(nodes, kind, attribute, (-900, 200 - 200 * socket))
         links.new(node.outputs[2], spread.inputs[socket])
     ramp = _ramp(nodes)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 
+from ..mesh import stored
 from ..mesh.mesh_arrays import read_positions
 from . import balls, filter, rebuild, thicken, thickness_colour
 from .inputs import has_inputs, set_inputs
@@ -19,7 +20,6 @@ FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
 _MOST_BALLS = 4_000  # about this many balls are left
-_BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ GROUPS = {
 
 def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
     """Return whether this is one of our groups, by whatever name."""
-    return tree is not None and tree.get(_BUILT_BY) == key
+    return tree is not None and tree.get(stored.NODES) == key
 
 
 def group(key: str) -> bpy.types.GeometryNodeTree:
@@ -75,7 +75,7 @@ def group(key: str) -> bpy.types.GeometryNodeTree:
         if found.library is None and is_group(found, key) and has_inputs(found, *GROUPS[key].newer):
             return found
     made = GROUPS[key].build(GROUPS[key].name)
-    made[_BUILT_BY] = key
+    made[stored.NODES] = key
     return made
 
 

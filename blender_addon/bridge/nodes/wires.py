@@ -16,15 +16,13 @@ import numpy as np
 
 from ...core.axis.medial_axis import MedialAxis
 from ...core.small_matrices import length_of
+from ..mesh import stored
 from ..mesh.attributes import RADIUS
 from ..mesh.material import radius_material
 from .inputs import has_inputs, input_of, row_of, set_inputs
 from .tree import Tree
 
 NAME = "Medial Axis Wires"
-WIRES = "ma_wires"  # how many edges without a face and single points a result has
-LONE_POINTS = "ma_lone_points_hidden"  # how many single points of a result are not shown
-DETAIL = "ma_wires_detail"  # Sides and Subdivisions as they were set by the numbers of wires
 _WIDTH, _SIDES, _SUBDIVISIONS, _POINTS = "Width", "Sides", "Subdivisions", "Points"
 _SHARE = 0.2  # of the ball of the axis: the most that a tube may be thick
 _MOST_SIDES = 12
@@ -42,9 +40,9 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis, lone_points: bool = Fa
     """
     points, ends = _points_and_ends(axis)
     shown = lone_points or not (axis.facets or len(axis.edges))
-    thing[LONE_POINTS] = 0 if shown else points
-    count, before = len(axis.edges) + points, thing.get(WIRES, 0)
-    thing[WIRES] = count
+    thing[stored.LONE_POINTS] = 0 if shown else points
+    count, before = len(axis.edges) + points, thing.get(stored.WIRES, 0)
+    thing[stored.WIRES] = count
     modifier = thing.modifiers.get(NAME)
     if count and not before and modifier is None:
         modifier = thing.modifiers.new(NAME, "NODES")
@@ -52,7 +50,7 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis, lone_points: bool = Fa
         modifier.show_in_editmode = False
         modifier.show_expanded = False
         set_inputs(modifier, {_WIDTH: _THIN * _size(axis)})
-        thing.pop(DETAIL, None)
+        thing.pop(stored.WIRES_DETAIL, None)
     elif modifier is not None and not count:
         thing.modifiers.remove(modifier)
         return
@@ -87,10 +85,10 @@ def _set_detail(
     names = (_SIDES, _SUBDIVISIONS)
     if not has_inputs(modifier.node_group, *names):  # of an older version
         return
-    kept = thing.get(DETAIL)
+    kept = thing.get(stored.WIRES_DETAIL)
     if kept is None or [input_of(modifier, name) for name in names] == list(kept):
         set_inputs(modifier, dict(zip(names, detail, strict=True)))
-        thing[DETAIL] = detail
+        thing[stored.WIRES_DETAIL] = detail
 
 
 def _points_and_ends(axis: MedialAxis) -> tuple[int, int]:

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import bpy
 import numpy as np
@@ -19,21 +20,9 @@ from numpy.typing import NDArray
 
 from ... import __version__
 from ...core.errors import InvalidInputError
+from ..mesh import stored
 from ..mesh.colours import coloured_mesh, remember_colours
 from ..mesh.material import dress
-
-SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
-VERSION = "ma_version"
-POINTS = "ma_points"
-DUPLICATES = "ma_duplicates"
-WARNINGS = "ma_warnings"
-SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
-DENSITY = "ma_density"  # how densely that lies: a sentence
-SECONDS = "ma_seconds"
-
-_WRITTEN = "ma_written"  # when an object and its mesh were written between two steps of undo
-
-OF_PART = "ma_of_part"  # the connected part of the source, as in the name of the object
 
 KEPT_SCALE = "Medial Axis Scale"  # the constraint that keeps the scale of an output at 1
 
@@ -42,7 +31,7 @@ Build = Callable[[str | bpy.types.Mesh], bpy.types.Mesh]
 
 def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
     """The object that this was made of; None when it was not made of one, or its source is gone."""
-    source = output.get(SOURCE)
+    source = output.get(stored.SOURCE)
     return source if isinstance(source, bpy.types.Object) else None
 
 
@@ -109,7 +98,7 @@ class Product:
     def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
         """The object of this kind that the next computation of a source updates."""
         return output_of(
-            source, lambda thing: self.has(thing) and thing.get(OF_PART, "") == self.part
+            source, lambda thing: self.has(thing) and thing.get(stored.OF_PART, "") == self.part
         )
 
     def check_writable(self, source: bpy.types.Object) -> None:
@@ -192,10 +181,10 @@ def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = F
     """
     check_mode(output)
     old = output.data
-    output.pop(_WRITTEN, None)
+    output.pop(stored.WRITTEN, None)
     if between_steps and old.shape_keys is None:  # keys of an artist fit one number of vertices
         build(old)
-        output[_WRITTEN] = old[_WRITTEN] = str(time.time_ns())
+        output[stored.WRITTEN] = old[stored.WRITTEN] = str(time.time_ns())
         return
     mesh = build(old.name)
     for material in old.materials:
@@ -208,7 +197,7 @@ def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = F
 
 def is_torn(output: bpy.types.Object) -> bool:
     """Return whether an object and its mesh were not written together: undo has brought back one of them."""
-    return output.get(_WRITTEN) != output.data.get(_WRITTEN)
+    return output.get(stored.WRITTEN) != output.data.get(stored.WRITTEN)
 
 
 def place(output: bpy.types.Object, frame: np.ndarray) -> None:
@@ -320,8 +309,40 @@ def remember(
     warnings: tuple[str, ...],
 ) -> None:
     """Store what every kind of output keeps: its source, and what was computed of it."""
-    output[SOURCE] = source
-    output[VERSION] = __version__
-    output[POINTS] = points
-    output[DUPLICATES] = duplicates
-    output[WARNINGS] = "\n".join(warnings)
+    output[stored.SOURCE] = source
+    output[stored.VERSION] = __version__
+    output[stored.POINTS] = points
+    output[stored.DUPLICATES] = duplicates
+    output[stored.WARNINGS] = "\n".join(warnings)
+
+
+def remove_object(thing: bpy.types.Object) -> None:
+    """Remove an object, and its mesh unless something else shows it."""
+    mesh = thing.data
+    bpy.data.objects.remove(thing)
+    if not mesh.users:
+        bpy.data.meshes.remove(mesh)
+
+
+def collection_of(
+    marks: dict[str, Any],
+    name: str,
+    beside: bpy.types.Object | None = None,
+    earlier: dict[str, Any] | None = None,
+) -> bpy.types.Collection:
+    """Return the collection with these properties, made next to an object, or in the scene, where there is none.
+
+    `earlier` has the values of properties that earlier versions did not set.
+    """
+    unset = earlier or {}
+    for found in bpy.data.collections:
+        is_it = all(found.get(key, unset.get(key)) == value for key, value in marks.items())
+        if is_it and found.library is None:
+            return found
+    made = bpy.data.collections.new(name)
+    for key, value in marks.items():
+        made[key] = value
+    near = () if beside is None else beside.users_collection
+    above = next((c for c in near if c.library is None), bpy.context.scene.collection)
+    above.children.link(made)
+    return made

@@ -10,7 +10,7 @@ import bpy
 
 from ...core.errors import InvalidInputError, ReadError
 from ...core.shape.shape import Shape
-from .output_object import VERSION
+from ..mesh import stored
 from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 
 # Extension -> operators that import it, the first one that this Blender has.
@@ -42,10 +42,6 @@ def load(path: str, allow_scripts: bool = False) -> None:
     allow_scripts : bool
         Whether Python in a .blend file may run: registered text blocks, and drivers that are more than simple
         expressions. It is always said, so that no preference of the machine decides.
-
-    Raises
-    ------
-    ReadError
     """
     if not Path(path).is_file():
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
@@ -84,7 +80,7 @@ def names(wanted: Sequence[str] | None) -> list[str]:
     found = [
         thing.name
         for thing in there
-        if thing.type in SAMPLED_TYPES and thing.visible_get() and VERSION not in thing
+        if thing.type in SAMPLED_TYPES and thing.visible_get() and stored.VERSION not in thing
     ]
     if not found:
         raise InvalidInputError(
@@ -94,12 +90,7 @@ def names(wanted: Sequence[str] | None) -> list[str]:
 
 
 def read(name: str, frame: int | None) -> tuple[Shape, tuple[str, ...]]:
-    """An object as it is at a frame; None: at the one at which the file was saved.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """An object as it is at a frame; None: at the one at which the file was saved."""
     scene = bpy.context.scene
     if frame is not None and scene.frame_current != frame:
         scene.frame_set(frame)

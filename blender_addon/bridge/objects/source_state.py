@@ -17,12 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InvalidInputError
+from ..mesh import stored
 from ..mesh.mesh_arrays import read_corners, read_positions
 from .output_object import is_gone, is_torn, source_of
 from .read_object import split_transform
-
-STATE = "ma_source_state"  # a hash of the shape
-SCALE = "ma_source_scale"  # scale, shear and mirror, 9 numbers
 
 _ROUNDING = 1e-5  # share of the scale that is lost where a matrix in float32 is turned
 _SELDOM = 20.0  # a check is repeated after this many times its own duration
@@ -69,9 +67,9 @@ def state_of(
 def remember_state(output: bpy.types.Object, state: tuple[str, list[float]] | None) -> None:
     """Store the state that the source had when it was read."""
     if state is not None:
-        output[STATE], output[SCALE] = state
+        output[stored.SOURCE_STATE], output[stored.SOURCE_SCALE] = state
     else:
-        output.pop(STATE, None)
+        output.pop(stored.SOURCE_STATE, None)
     forget_answer(output)
 
 
@@ -87,7 +85,9 @@ def same_state(source: bpy.types.Object) -> Iterator[None]:
     fresh = [
         thing
         for thing in bpy.data.objects
-        if STATE in thing and source_of(thing) == source and not differs(thing, depsgraph)
+        if stored.SOURCE_STATE in thing
+        and source_of(thing) == source
+        and not differs(thing, depsgraph)
     ]
     yield
     state = state_of(source, bpy.context.evaluated_depsgraph_get())
@@ -111,7 +111,7 @@ def has_changed(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None)
 def differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
     """The same as `has_changed`, never from memory."""
     source = source_of(output) or output  # thickness may be written on the source itself
-    if is_gone(source) or STATE not in output:
+    if is_gone(source) or stored.SOURCE_STATE not in output:
         return False
     if is_torn(output):
         return True
@@ -119,9 +119,9 @@ def differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
     if state is None:
         return False
     shape, scale = state
-    before = np.array(output[SCALE])
+    before = np.array(output[stored.SOURCE_SCALE])
     same_scale = np.abs(before - scale).max() <= _ROUNDING * np.abs(before).max()
-    return shape != output[STATE] or not same_scale
+    return shape != output[stored.SOURCE_STATE] or not same_scale
 
 
 def _numbers(evaluated: bpy.types.Object) -> Iterator[NDArray]:

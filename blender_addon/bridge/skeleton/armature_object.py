@@ -15,25 +15,14 @@ from ...core.arrays import Floats
 from ...core.errors import InvalidInputError
 from ...core.rig.rig import Rig
 from ...core.settings import LimbControl
-from ..objects.output_object import (
-    SOURCE,
-    Product,
-    check_mode,
-    is_gone,
-    new_object,
-    place,
-    remember,
-)
+from ..mesh import stored
+from ..objects.output_object import Product, check_mode, is_gone, new_object, place, remember
 from .limb_controls import constrain, controls_of, release
 
 _SHORTEST = 1e-6  # Blender deletes shorter bones
 
-BONES = "ma_bones"
-MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
-_FRAME = "ma_frame"  # the frame of the rig that the armature has now
 
-
-ARMATURE = Product(" Armature", (BONES,), type="ARMATURE")
+ARMATURE = Product(" Armature", (stored.BONES,), type="ARMATURE")
 is_armature, armature_of = ARMATURE.has, ARMATURE.of
 
 
@@ -51,11 +40,13 @@ def mark_of(armature: bpy.types.Object, source: bpy.types.Object) -> str | None:
 
     In an armature that was made of the source they end in nothing; in others, in the number of the source there.
     """
-    if armature.get(SOURCE) == source:
+    if armature.get(stored.SOURCE) == source:
         return ""
     numbers = itertools.count(1)
-    marks = itertools.takewhile(lambda mark: SOURCE + mark in armature, (f"_{n}" for n in numbers))
-    return next((mark for mark in marks if armature[SOURCE + mark] == source), None)
+    marks = itertools.takewhile(
+        lambda mark: stored.SOURCE + mark in armature, (f"_{n}" for n in numbers)
+    )
+    return next((mark for mark in marks if armature[stored.SOURCE + mark] == source), None)
 
 
 def find_armature(name: str) -> bpy.types.Object | None:
@@ -157,8 +148,12 @@ def write_armature(
         to_local = np.linalg.inv(np.array(thing.matrix_world, np.float64)) @ frame
         _check_lengths(rig, to_local)
         mark = _new_mark(thing, source)
-    moved = to_local @ np.array(thing.get(_FRAME, rig.frame)).reshape(4, 4) if own else np.eye(4)
-    key = MADE + mark
+    moved = (
+        to_local @ np.array(thing.get(stored.RIG_FRAME, rig.frame)).reshape(4, 4)
+        if own
+        else np.eye(4)
+    )
+    key = stored.MADE_BONE + mark
     if thing.pose is not None:
         release(source, [bone for bone in thing.pose.bones if key in bone.bone])
     with active(thing):
@@ -172,13 +167,13 @@ def write_armature(
     constrain(source, thing, rig, {k: thing.pose.bones[v] for k, v in named.items()}, ik)
     if own:
         remember(thing, source, rig.made_of.points, rig.made_of.duplicates, rig.warnings)
-        thing[BONES], thing[_FRAME] = rig.bones.count, rig.frame.ravel().tolist()
+        thing[stored.BONES], thing[stored.RIG_FRAME] = rig.bones.count, rig.frame.ravel().tolist()
     return thing
 
 
 def bones_of(armature: bpy.types.Object, source: bpy.types.Object, rig: Rig) -> list[str]:
     """The bones of a rig by the names that they have in the armature, in the order of the rig."""
-    mark = MADE + (mark_of(armature, source) or "")
+    mark = stored.MADE_BONE + (mark_of(armature, source) or "")
     names = {bone[mark]: bone.name for bone in armature.data.bones if mark in bone}
     return [names[name] for name in rig.names]
 
@@ -206,8 +201,8 @@ def _new_mark(armature: bpy.types.Object, source: bpy.types.Object) -> str:
     mark = mark_of(armature, source)
     if mark is None:
         marks = (f"_{number}" for number in itertools.count(1))
-        mark = next(mark for mark in marks if SOURCE + mark not in armature)
-        armature[SOURCE + mark] = source
+        mark = next(mark for mark in marks if stored.SOURCE + mark not in armature)
+        armature[stored.SOURCE + mark] = source
     return mark
 
 
@@ -226,7 +221,7 @@ def _move_others(armature: bpy.types.Armature, moved: Floats) -> None:
     if np.allclose(moved, np.eye(4), rtol=0.0, atol=1e-12):
         return
     for bone in armature.edit_bones:
-        if MADE not in bone:
+        if stored.MADE_BONE not in bone:
             up = Vector(moved[:3, :3] @ np.array(bone.z_axis))
             ends = [moved[:3, :3] @ np.array(end) + moved[:3, 3] for end in (bone.head, bone.tail)]
             bone.head, bone.tail = (end.tolist() for end in ends)
@@ -245,7 +240,7 @@ def _fill(
     bones, turn = rig.bones, to_local[:3, :3]
     head, tail = (ends @ turn.T + to_local[:3, 3] for ends in (bones.head, bones.tail))
     scale = abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
-    key = MADE + mark
+    key = stored.MADE_BONE + mark
     controls = [control for limb in rig.limbs for control in controls_of(rig, limb, ik)]
     old = {bone[key]: bone for bone in armature.edit_bones if key in bone}
     names = [*rig.names, *(control.name for control in controls)]

@@ -12,16 +12,12 @@ import numpy as np
 
 from ...core.errors import InvalidInputError
 from ...core.rig.rig import Rig
+from ..mesh import stored
 from ..objects.output_object import inverse_of
-from .armature_object import MADE, active, bones_of, mark_of, rig_of
+from .armature_object import active, bones_of, mark_of, rig_of
 from .skeleton_object import rows_of_vertices
 
 MODIFIER = "Medial Axis Armature"
-_GROUPS = "ma_groups"  # the vertex groups that were made here, a name per line
-_GROUP = (
-    "ma_group"  # on a bone: the name of its group there; Blender renames groups with their bones
-)
-_WEIGHTS = "ma_weights"  # a hash of the weights in them
 
 
 def check_bindable(source: bpy.types.Object, bind: bool, replace_weights: bool = False) -> None:
@@ -144,9 +140,13 @@ def _attach(source: bpy.types.Object, armature: bpy.types.Object) -> None:
 def _mark_older(source: bpy.types.Object, armature: bpy.types.Object) -> None:
     """Mark the bones and groups of an armature from before they were marked: all of its bones were made here."""
     bones = armature.data.bones
-    if mark_of(armature, source) == "" and len(bones) and not any(MADE in bone for bone in bones):
+    if (
+        mark_of(armature, source) == ""
+        and len(bones)
+        and not any(stored.MADE_BONE in bone for bone in bones)
+    ):
         for bone in bones:
-            bone[MADE] = bone.name
+            bone[stored.MADE_BONE] = bone.name
         _set_groups(source, armature, [bone.name for bone in bones])
 
 
@@ -157,24 +157,28 @@ def _names(source: bpy.types.Object) -> set[str]:
 def _own_groups(source: bpy.types.Object, armature: bpy.types.Object) -> list[str]:
     """The vertex groups that were made for this armature, by the names that they have now."""
     mark = mark_of(armature, source) or ""
-    bones = [bone for bone in armature.data.bones if _GROUP + mark in bone]
-    now = {bone[_GROUP + mark]: bone.name for bone in bones}
-    return [now.get(name, name) for name in armature.get(_GROUPS + mark, "").splitlines()]
+    bones = [bone for bone in armature.data.bones if stored.BONE_GROUP + mark in bone]
+    now = {bone[stored.BONE_GROUP + mark]: bone.name for bone in bones}
+    return [
+        now.get(name, name) for name in armature.get(stored.BOUND_GROUPS + mark, "").splitlines()
+    ]
 
 
 def _set_groups(source: bpy.types.Object, armature: bpy.types.Object, names: list[str]) -> None:
     mark = mark_of(armature, source) or ""
-    armature[_GROUPS + mark] = "\n".join(names)
+    armature[stored.BOUND_GROUPS + mark] = "\n".join(names)
     for bone in armature.data.bones:
         if bone.name in names:
-            bone[_GROUP + mark] = bone.name
+            bone[stored.BONE_GROUP + mark] = bone.name
 
 
 def _remember_groups(
     source: bpy.types.Object, armature: bpy.types.Object, names: list[str]
 ) -> None:
     _set_groups(source, armature, names)
-    armature[_WEIGHTS + (mark_of(armature, source) or "")] = _hash_of_weights(source, names)
+    armature[stored.BOUND_WEIGHTS + (mark_of(armature, source) or "")] = _hash_of_weights(
+        source, names
+    )
 
 
 def _forget_groups(source: bpy.types.Object, armature: bpy.types.Object) -> None:
@@ -188,7 +192,7 @@ def _forget_groups(source: bpy.types.Object, armature: bpy.types.Object) -> None
 def _is_painted(source: bpy.types.Object, armature: bpy.types.Object) -> bool:
     """Return whether someone changed the weights since they were made; groups that are gone have nothing to lose."""
     names = _own_groups(source, armature)
-    key = _WEIGHTS + (mark_of(armature, source) or "")
+    key = stored.BOUND_WEIGHTS + (mark_of(armature, source) or "")
     if _names(source).isdisjoint(names) or key not in armature:
         return False
     return armature[key] != _hash_of_weights(source, names)

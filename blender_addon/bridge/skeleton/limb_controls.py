@@ -12,10 +12,10 @@ from mathutils import Vector
 from ...core.rig.names import target_of
 from ...core.rig.rig import Rig
 from ...core.settings import LimbControl
+from ..mesh import stored
 from ..objects.output_object import new_object
 
 IK = "Medial Axis IK"  # the constraints that were made here
-_LINE = "ma_line"  # on the curve of a limb: a pointer to the source
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def release(source: bpy.types.Object, bones: Iterable[bpy.types.PoseBone]) -> No
                 for joint in _chain(bone, constraint):
                     joint.lock_ik_y = joint.lock_ik_z = False
             bone.constraints.remove(constraint)
-    for line in [o for o in bpy.data.objects if o.get(_LINE) == source]:
+    for line in [o for o in bpy.data.objects if o.get(stored.LIMB_LINE) == source]:
         bpy.data.curves.remove(line.data)
 
 
@@ -121,7 +121,7 @@ def _lie_along(
     places = [bone.bone.head_local for bone in chain] + [chain[-1].bone.tail_local]
     name = " " + target_of(chain[0].name)
     line = new_object(source, name, _curve(source.name + name, places))
-    line[_LINE] = source
+    line[stored.LIMB_LINE] = source
     line.parent = armature
     line.hide_select = True
     for number, control in enumerate(controls):

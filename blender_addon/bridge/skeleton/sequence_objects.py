@@ -19,17 +19,16 @@ from ...core.axis.colours import radius_range
 from ...core.errors import InvalidInputError
 from ...core.files.load_axis import load_axis
 from ...core.skeleton.load_skeleton import load_skeleton
+from ..mesh import stored
 from ..mesh.attributes import RADIUS
 from ..mesh.colours import colour_mesh, remember_colours
-from ..mesh.material import RADIUS_MAX, RADIUS_MIN, dress, radius_material
+from ..mesh.material import dress, radius_material
 from ..mesh.write_mesh import new_axis_mesh
 from ..nodes.wires import show_wires
-from .skeleton_object import BRANCHES, ENDS, LOOPS, check_size, fill_curve, new_curve
+from ..objects.output_object import collection_of
+from .skeleton_object import check_size, fill_curve, new_curve
 
-SEQUENCE = "ma_sequence"
-FORMAT = "ma_sequence_format"  # collections of earlier versions lack it: theirs is AXES
 AXES, SKELETONS = ".npz", ".json"
-FRAME = "ma_frame"
 
 _NAME = re.compile(r"(.*?)(?:_(-?\d+)|[.-]?(\d+))")  # a minus belongs to a number behind _ only
 
@@ -89,23 +88,22 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     name : str
     files : dict of int to Path
         Of each frame, ascending: all `.npz` of medial axes, or all `.json` of skeletons.
-
-    Raises
-    ------
-    ReadError, InvalidInputError
     """
     form = next(iter(files.values())).suffix.lower()
     made: list[bpy.types.Object] = []
     try:
         for frame, path in files.items():
             made.append(_KINDS[form].load(f"{name} {frame:04d}", path))
-            made[-1][FRAME] = frame
+            made[-1][stored.SEQUENCE_FRAME] = frame
     except BaseException:
         _remove(made)
         raise
     _KINDS[form].finish(made)
     _key_visibility(made, list(files))
-    collection = _collection(name, form)
+    marks = {stored.SEQUENCE: name, stored.SEQUENCE_FORMAT: form}
+    collection = collection_of(
+        marks, name + _KINDS[form].suffix, earlier={stored.SEQUENCE_FORMAT: AXES}
+    )
     _remove(list(collection.objects))
     for thing in made:
         collection.objects.link(thing)
@@ -120,7 +118,10 @@ def _new_axis(name: str, path: Path) -> bpy.types.Object:
     dress(thing, radius_material())
     thing.show_in_front = True
     show_wires(thing, axis)
-    thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    thing[stored.RADIUS_MIN], thing[stored.RADIUS_MAX] = (
+        float(axis.radius.min()),
+        float(axis.radius.max()),
+    )
     return thing
 
 
@@ -131,16 +132,23 @@ def _new_skeleton(name: str, path: Path) -> bpy.types.Object:
     fill_curve(curve, skeleton)
     thing = bpy.data.objects.new(name, curve)
     thing.show_in_front = True
-    thing[ENDS], thing[LOOPS], thing[BRANCHES] = skeleton.tips, skeleton.loops, skeleton.count
+    thing[stored.ENDS], thing[stored.LOOPS], thing[stored.BRANCHES] = (
+        skeleton.tips,
+        skeleton.loops,
+        skeleton.count,
+    )
     return thing
 
 
 def _same_colours(things: list[bpy.types.Object]) -> None:
     """One range of radii for all frames, so that colours do not flicker."""
-    lowest, highest = min(t[RADIUS_MIN] for t in things), max(t[RADIUS_MAX] for t in things)
+    lowest, highest = (
+        min(t[stored.RADIUS_MIN] for t in things),
+        max(t[stored.RADIUS_MAX] for t in things),
+    )
     start, end = radius_range([lowest, highest])
     for thing in things:
-        thing[RADIUS_MIN], thing[RADIUS_MAX] = lowest, highest
+        thing[stored.RADIUS_MIN], thing[stored.RADIUS_MAX] = lowest, highest
         radii = np.empty(len(thing.data.vertices), np.float32)
         thing.data.attributes[RADIUS.name].data.foreach_get("value", radii)
         colour_mesh(thing.data, radii, start, end)
@@ -160,22 +168,10 @@ def _key_visibility(things: list[bpy.types.Object], frames: list[int]) -> None:
                 thing.keyframe_insert(path, frame=frame)
 
 
-def _collection(name: str, form: str) -> bpy.types.Collection:
-    """The collection of a sequence of this name and format, made where there is none."""
-    for collection in bpy.data.collections:
-        is_it = (collection.get(SEQUENCE), collection.get(FORMAT, AXES)) == (name, form)
-        if is_it and collection.library is None:
-            return collection
-    collection = bpy.data.collections.new(name + _KINDS[form].suffix)
-    collection[SEQUENCE], collection[FORMAT] = name, form
-    bpy.context.scene.collection.children.link(collection)
-    return collection
-
-
 def _remove(things: list[bpy.types.Object]) -> None:
     """Remove objects of a sequence with what they show and their keys; objects that an artist added stay."""
     for thing in things:
-        if FRAME not in thing:
+        if stored.SEQUENCE_FRAME not in thing:
             continue
         shape, keys = thing.data, thing.animation_data and thing.animation_data.action
         bpy.data.objects.remove(thing)

@@ -13,20 +13,17 @@ from ...core.shape.shape import Shape
 from ...core.skeleton.compute import Skeletonization
 from ...core.skeleton.skeleton import Skeleton
 from ...core.small_matrices import times
+from ..mesh import stored
 from ..mesh.attributes import set_attribute
 from ..mesh.evaluated_rows import only_deforms, row_of_vertices
 from ..mesh.mesh_arrays import read_polygons, read_positions
 from ..objects.output_object import Product, check_mode, new_object, place, remember
 from ..objects.read_object import split_transform
 
-ENDS = "ma_ends"
-LOOPS = "ma_loops"
-BRANCHES = "ma_branches"
-MIRRORED = "ma_mirrored"
 PART = "ma_part"
 
 
-SKELETON = Product(" Skeleton", (ENDS,), type="CURVE")
+SKELETON = Product(" Skeleton", (stored.ENDS,), type="CURVE")
 is_skeleton, skeleton_of, check_skeleton_writable = (
     SKELETON.has,
     SKELETON.of,
@@ -61,8 +58,8 @@ def write_skeleton(
     fill_curve(thing.data, found.skeleton)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
-    thing[ENDS], thing[LOOPS] = found.skeleton.tips, found.skeleton.loops
-    thing[BRANCHES], thing[MIRRORED] = found.skeleton.count, found.mirrored
+    thing[stored.ENDS], thing[stored.LOOPS] = found.skeleton.tips, found.skeleton.loops
+    thing[stored.BRANCHES], thing[stored.MIRRORED] = found.skeleton.count, found.mirrored
     thing.update_tag()
     return thing
 

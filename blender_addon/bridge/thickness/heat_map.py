@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 
 from ..axis.axis_object import result_of
-from ..mesh.colours import OF, colour_mesh, remember_colours
+from ..mesh import stored
+from ..mesh.colours import colour_mesh, remember_colours
 from ..objects.output_object import is_gone, source_of
 from .thickness_object import carrier_of, is_copy
 
@@ -26,7 +27,7 @@ def show_axis(axis: bpy.types.Object) -> None:
     """Show an axis, and no thickness of its source."""
     _hide(axis, False)
     carrier = carrier_of(source_of(axis))
-    if carrier is None or not carrier.get(OF):
+    if carrier is None or not carrier.get(stored.COLOUR_OF):
         return
     if is_copy(carrier):
         _hide(carrier, True)
@@ -40,7 +41,12 @@ def show_axis(axis: bpy.types.Object) -> None:
 def shown_heat(axis: bpy.types.Object) -> bpy.types.Object | None:
     """The carrier of the thickness that is seen instead of an axis; None where the axis is."""
     carrier = carrier_of(source_of(axis))
-    if carrier is None or not carrier.get(OF) or axis.visible_get() or not carrier.visible_get():
+    if (
+        carrier is None
+        or not carrier.get(stored.COLOUR_OF)
+        or axis.visible_get()
+        or not carrier.visible_get()
+    ):
         return None
     return carrier
 

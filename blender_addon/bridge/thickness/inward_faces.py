@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 
 from ...core.arrays import Flags
-from ...core.shape.outward_faces import TURNED, outward_shape
-from ...core.shape.shape import Shape
+from ...core.shape.outward_faces import outward_shape
+from ...core.shape.shape import TURNED, Shape
 from ..mesh.mesh_arrays import read_loop_triangles, read_positions, select_faces
 from .thin_selection import in_object_mode
 

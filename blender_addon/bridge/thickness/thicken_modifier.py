@@ -10,6 +10,7 @@ import numpy as np
 from ...core.arrays import Flags, Floats
 from ...core.errors import InvalidInputError
 from ...core.small_matrices import inverse, times
+from ..mesh import stored
 from ..mesh.attributes import as_float32, read_vectors, set_attribute
 from ..mesh.evaluated_rows import keeps_rows
 from ..mesh.mesh_arrays import read_loop_triangles, selected_faces
@@ -21,7 +22,6 @@ from ..objects.output_object import check_mode
 from ..objects.read_object import split_transform
 
 _GROUP = "Medial Axis Thicken"
-_MADE = "ma_thicken_group"  # on the source: the name of the vertex group that was made here
 _FACTOR = "Factor"
 
 
@@ -80,9 +80,9 @@ def write_moves(source: bpy.types.Object, moves: Floats) -> None:
 
 def _own_group(source: bpy.types.Object) -> str:
     """The name of the vertex group that was made here; one of the artist's that has our name stays as it is."""
-    name = source.get(_MADE)
+    name = source.get(stored.THICKEN_GROUP)
     if not isinstance(name, str) or name not in source.vertex_groups:
-        name = source[_MADE] = source.vertex_groups.new(name=_GROUP).name
+        name = source[stored.THICKEN_GROUP] = source.vertex_groups.new(name=_GROUP).name
     return name
 
 

@@ -17,42 +17,17 @@ from ...core.shape.triangle_faces import TriangleFaces
 from ...core.thickness.measurement import Measurement
 from ...core.thickness.thickness_colours import ThicknessScale, histogram, scale_of
 from ...core.thickness.thin_parts import ThinParts
+from ..mesh import stored
 from ..mesh.attributes import as_float32, set_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.evaluated_rows import keeps_rows
 from ..mesh.material import colour_material
 from ..mesh.mesh_arrays import read_loop_triangles
 from ..mesh.write_mesh import new_mesh
-from ..objects.output_object import (
-    SAMPLED,
-    SECONDS,
-    SOURCE,
-    WARNINGS,
-    Product,
-    check_mode,
-    is_gone,
-    place,
-    remember,
-    source_of,
-)
+from ..objects.output_object import Product, check_mode, is_gone, place, remember, source_of
 
 THICKNESS, THIN = "ma_thickness", "ma_thin"
-KEY = "ma_thickness_key"  # names the measurement
-MINIMUM = "ma_thickness_minimum"
-LIMIT = "ma_thickness_limit"
-AREA = "ma_thickness_area"
-SHARE = "ma_thickness_share"
-GAP = "ma_thickness_gap"
-NORMALS = "ma_thickness_normals"  # where they come from: a sentence
-PATCHES = "ma_thickness_patches"  # how many
-# For each of the thinnest patches, up to _MOST_PLACES: x, y, z in the carrier's own frame, area, minimum.
-PLACES = "ma_thickness_places"
-LEAST = "ma_thickness_place"  # x, y, z of the minimum
-ON_SOURCE = "ma_thickness_on_source"  # whether the source has the attributes, too
-SCALE = "ma_thickness_scale"  # low, limit and high of its ThicknessScale
-HISTOGRAM = "ma_thickness_histogram"  # the shares of the area with each colour of the legend
-CURRENT = "ma_thickness_current"  # the patch that was framed last; -1: none
-_MOST_PLACES = 1000
+_MOST_PLACES = 1000  # of patches that are stored
 # A source with at least this many vertices for each sample shows its thickness.
 _ENOUGH = 0.25
 
@@ -65,11 +40,11 @@ class _Surface(TriangleFaces):
 
 
 def is_carrier(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and KEY in thing
+    return thing.type == "MESH" and stored.THICKNESS_KEY in thing
 
 
 # An object that was made to show thickness; a source that carries its thickness itself is none.
-COPY = Product(" Thickness", (KEY, SOURCE), material=colour_material)
+COPY = Product(" Thickness", (stored.THICKNESS_KEY, stored.SOURCE), material=colour_material)
 is_copy = COPY.has
 
 
@@ -113,7 +88,7 @@ def write_thickness(
     else:
         carrier, local = _write_copy(source, found, frame), np.identity(4)
     _remember(carrier, found, local)
-    carrier[ON_SOURCE] = own
+    carrier[stored.THICKNESS_ON_SOURCE] = own
     show_limit(carrier, found, parts)
     return carrier
 
@@ -122,7 +97,11 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     """Flags, colours and figures for a limit, on the carrier and on its source; neither may be in edit mode."""
     on_copy = is_copy(carrier)
     source = source_of(carrier) if on_copy else carrier
-    if not is_gone(source) and carrier.get(ON_SOURCE, True) and _has_own(source, found):
+    if (
+        not is_gone(source)
+        and carrier.get(stored.THICKNESS_ON_SOURCE, True)
+        and _has_own(source, found)
+    ):
         set_attribute(source.data, THIN, "BOOLEAN", "FACE", _thin_polygons(source.data, parts))
         source.data.update()
     lengths = found.of_vertices
@@ -135,15 +114,19 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     )  # else renders show those of the artist
     colour_mesh(carrier.data, scale.positions(lengths), 0.0, 1.0, render=alone)
     remember_colours(carrier, THICKNESS, scale.high, scale.low)
-    carrier[SCALE] = scale.low, scale.limit, scale.high
-    carrier[HISTOGRAM] = histogram(found, scale).tolist()
+    carrier[stored.THICKNESS_SCALE] = scale.low, scale.limit, scale.high
+    carrier[stored.THICKNESS_HISTOGRAM] = histogram(found, scale).tolist()
     carrier.data.update()
     _remember_parts(carrier, parts)
 
 
 def scale_on(carrier: bpy.types.Object) -> ThicknessScale | None:
     """The scale that the colours of a carrier stand for; None where an older version made them."""
-    return ThicknessScale(*carrier[SCALE]) if SCALE in carrier else None
+    return (
+        ThicknessScale(*carrier[stored.THICKNESS_SCALE])
+        if stored.THICKNESS_SCALE in carrier
+        else None
+    )
 
 
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
@@ -184,29 +167,29 @@ def _copy_mesh(found: Measurement, name: str) -> bpy.types.Mesh:
 
 
 def _remember(carrier: bpy.types.Object, found: Measurement, local: Floats) -> None:
-    carrier[KEY] = found.key
-    carrier[MINIMUM] = found.minimum
-    carrier[GAP] = found.settings.between.name == "GAP"
-    carrier[NORMALS] = found.normals
-    carrier[SAMPLED] = found.chosen.reason
-    carrier[SECONDS] = found.seconds
-    carrier[WARNINGS] = "\n".join(found.warnings)
-    carrier["ma_thickness_local"] = local.ravel().tolist()
+    carrier[stored.THICKNESS_KEY] = found.key
+    carrier[stored.THICKNESS_MINIMUM] = found.minimum
+    carrier[stored.THICKNESS_GAP] = found.settings.between.name == "GAP"
+    carrier[stored.THICKNESS_NORMALS] = found.normals
+    carrier[stored.SAMPLED] = found.chosen.reason
+    carrier[stored.SECONDS] = found.seconds
+    carrier[stored.WARNINGS] = "\n".join(found.warnings)
+    carrier[stored.THICKNESS_LOCAL] = local.ravel().tolist()
     if len(found.triangles):
-        carrier[LEAST] = _moved(local, found.thinnest_place).tolist()
+        carrier[stored.THICKNESS_PLACE] = _moved(local, found.thinnest_place).tolist()
 
 
 def _remember_parts(carrier: bpy.types.Object, parts: ThinParts) -> None:
-    local = np.reshape(carrier["ma_thickness_local"], (4, 4))
+    local = np.reshape(carrier[stored.THICKNESS_LOCAL], (4, 4))
     rows = [
         (*_moved(local, np.array(patch.place)).tolist(), patch.area, patch.minimum)
         for patch in parts.patches[:_MOST_PLACES]
     ]
-    carrier[LIMIT] = parts.limit
-    carrier[AREA], carrier[SHARE] = parts.area, parts.share
-    carrier[PATCHES] = len(parts.patches)
-    carrier[PLACES] = [number for row in rows for number in row]
-    carrier[CURRENT] = -1
+    carrier[stored.THICKNESS_LIMIT] = parts.limit
+    carrier[stored.THICKNESS_AREA], carrier[stored.THICKNESS_SHARE] = parts.area, parts.share
+    carrier[stored.THICKNESS_PATCHES] = len(parts.patches)
+    carrier[stored.THICKNESS_PLACES] = [number for row in rows for number in row]
+    carrier[stored.THICKNESS_CURRENT] = -1
     carrier.update_tag()
 
 

@@ -11,9 +11,10 @@ import numpy as np
 
 from ...core.arrays import Flags, Floats
 from ...core.machine.native import own_errors
+from ..mesh import stored
 from ..mesh.attributes import read_vectors
 from ..mesh.mesh_arrays import read_loop_triangles, select_faces
-from .thickness_object import LEAST, MINIMUM, PLACES, THIN
+from .thickness_object import THIN
 
 _SOME_MINIMA = 10  # as large as a thin patch is shown, in its thickness
 _COLUMNS = 5  # of a patch: x, y, z, area, minimum
@@ -21,20 +22,22 @@ _COLUMNS = 5  # of a patch: x, y, z, area, minimum
 
 def patch_at(carrier: bpy.types.Object, number: int) -> tuple[tuple[float, ...], float, float]:
     """Place in the carrier's own frame, area and minimum of one of the patches that are remembered."""
-    row = list(carrier[PLACES])[_COLUMNS * number : _COLUMNS * (number + 1)]
+    row = list(carrier[stored.THICKNESS_PLACES])[_COLUMNS * number : _COLUMNS * (number + 1)]
     return tuple(row[:3]), row[3], row[4]
 
 
 def patches_of(carrier: bpy.types.Object) -> int:
     """The number of patches that are remembered."""
-    return len(carrier.get(PLACES, ())) // _COLUMNS
+    return len(carrier.get(stored.THICKNESS_PLACES, ())) // _COLUMNS
 
 
 def least_of(carrier: bpy.types.Object) -> tuple[tuple[float, ...], float]:
     """Place of the minimum in the carrier's own frame, and how large what is worth seeing is there."""
-    least = carrier[MINIMUM]
+    least = carrier[stored.THICKNESS_MINIMUM]
     patch = patch_at(carrier, 0)[1] if patches_of(carrier) else 0.0  # the thinnest comes first
-    return tuple(carrier[LEAST]), min(max(patch**0.5, 4 * least), _SOME_MINIMA * least)
+    return tuple(carrier[stored.THICKNESS_PLACE]), min(
+        max(patch**0.5, 4 * least), _SOME_MINIMA * least
+    )
 
 
 def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) -> int:

@@ -20,7 +20,6 @@ from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..settings import Form, Settings, SidesFrom
 from ..shape.outward_faces import reading_counts
 from ..shape.shape import Shape
-from ..shape.solid_faces import triangles_of_places
 from .axis_warnings import axis_warnings
 from .extract import extract
 from .medial_axis import MedialAxis
@@ -91,7 +90,7 @@ class Computation(OfChosenSamples):
     @property
     def key(self) -> str:
         """The name of the analysis for `refilter`."""
-        return self.chosen.samples.key
+        return self.chosen.samples.kept.key
 
 
 def compute(
@@ -124,10 +123,6 @@ def compute_axis(
     relaxed : bool
         Whether curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them; else the vertices of
         facets of the Voronoi diagram have crisp places.
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     asked, settings = settings, settings.with_side()
     rough = ""
@@ -138,7 +133,7 @@ def compute_axis(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
-        triangles=triangles_of_places(shape, settings),
+        triangles=len(shape.triangles) if settings.has_crisp_places else 0,
     )
     if form is Form.CURVE:
         limit = limit.used(output=CURVE)
@@ -176,11 +171,6 @@ def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
 
 
 def refilter(key: str, settings: Settings, progress: Progress | None = None) -> MedialAxis | None:
-    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
-    """
+    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept."""
     samples = CACHE.get(key)
     return None if samples is None else extract(samples, settings, progress)

@@ -13,17 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints, Longs
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
 from .cut import lowest_of_piece
 from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
-from .spacing import spacing_of
 
 LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting
 
 
-def crumb_sizes(level: Any, samples: AnalysedSamples) -> NDArray[np.float32]:
+def crumb_sizes(level: Any, samples: Analysed) -> NDArray[np.float32]:
     """(v,) the size of the piece of each vertex, in spacings of the samples there; infinite where it is no crumb.
 
     The size of a piece is its largest radius and half the diagonal of the box round its vertices. Nothing is a crumb
@@ -32,12 +31,12 @@ def crumb_sizes(level: Any, samples: AnalysedSamples) -> NDArray[np.float32]:
     Parameters
     ----------
     level : _medial.Level
-    samples : AnalysedSamples
+    samples : Analysed
     """
     found = np.full(len(level.vertices), np.inf, np.float32)
     if samples.by_faces is not None and samples.by_faces[0] == level.betti[0]:
         return found
-    spacing = spacing_of(samples)
+    spacing = samples.neighbours
     small = level.radius < LARGEST * spacing.max(initial=0.0)
     small[level.face_vertices] = False
     piece = _piece_of(level.wires, small)

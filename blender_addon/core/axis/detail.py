@@ -17,7 +17,7 @@ from ..arrays import Flags, Ints
 from ..curves.loaded_net import LoadedNet, genuine_loops, loaded_net
 from ..curves.removals import Removals, removals_of, take_apart
 from ..curves.rules import Loops
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..settings import SkeletonSettings
 from .cut import lowest_of_piece
 from .medial_axis import MedialAxis
@@ -27,7 +27,7 @@ _SHARE = SkeletonSettings().share
 
 
 def with_detail(
-    axis: MedialAxis, level: Any, hierarchy: Any, samples: AnalysedSamples, detail: float
+    axis: MedialAxis, level: Any, hierarchy: Any, samples: Analysed, detail: float
 ) -> MedialAxis:
     """Return a curve without some of its loops and branches, which knows how many could go.
 
@@ -37,7 +37,7 @@ def with_detail(
         The level `level` in the form CURVE; facets of closed sheets, and what they hold, stay.
     level : _medial.Level
     hierarchy : _medial.Hierarchy
-    samples : AnalysedSamples
+    samples : Analysed
     detail : float
         From 0, what a skeleton has, to 1, everything.
     """
@@ -49,7 +49,7 @@ def with_detail(
 
 
 def net_with_detail(
-    level: Any, hierarchy: Any, samples: AnalysedSamples, detail: float
+    level: Any, hierarchy: Any, samples: Analysed, detail: float
 ) -> tuple[LoadedNet, Loops]:
     """Return the net of a curve with some detail, and how many of its loops were cut and filled.
 
@@ -64,9 +64,9 @@ def _done(removals: Removals, detail: float) -> int:
     return round((1.0 - detail) * removals.count)
 
 
-def _removals(level: Any, hierarchy: Any, samples: AnalysedSamples) -> Removals:
+def _removals(level: Any, hierarchy: Any, samples: Analysed) -> Removals:
     """Return the removals, which are kept as long as the level has the same wires."""
-    kept = samples.levels.kept("removals", hierarchy, lambda _: {})
+    kept = samples.kept.levels.kept("removals", hierarchy, lambda _: {})
     wires = level.wires.tobytes()
     found: Removals | None = kept.get(wires)
     if found is None:
@@ -77,7 +77,7 @@ def _removals(level: Any, hierarchy: Any, samples: AnalysedSamples) -> Removals:
     return found
 
 
-def _loaded(level: Any, hierarchy: Any, samples: AnalysedSamples) -> LoadedNet:
+def _loaded(level: Any, hierarchy: Any, samples: Analysed) -> LoadedNet:
     return loaded_net(samples, hierarchy, level, np.unique(level.face_vertices).tolist())
 
 

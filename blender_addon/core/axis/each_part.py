@@ -39,12 +39,7 @@ def compute_each_part(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> EachPart:
-    """Compute the medial axis of each connected part of a shape that has thickness.
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
-    """
+    """Compute the medial axis of each connected part of a shape that has thickness."""
     found, progress = split(shape, settings), progress or Progress()
     computed, failed, many = {}, [], len(found.parts)
     for done, part in enumerate(found.parts):

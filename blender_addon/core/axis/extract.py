@@ -10,7 +10,7 @@ import numpy as np
 
 from ..machine import native
 from ..machine.progress import Progress
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..settings import Form, Settings
 from .levels import extract_level
 from .medial_axis import MedialAxis
@@ -32,7 +32,7 @@ _SAME = (
 
 
 def extract(
-    samples: AnalysedSamples,
+    samples: Analysed,
     settings: Settings,
     progress: Progress | None = None,
     relaxed: bool = True,
@@ -40,10 +40,6 @@ def extract(
     """Extract the axis that the settings select, in the form that they have for their side.
 
     Curves of the forms CLEAN and CURVE are smoothed if it is relaxed; else facets have crisp places.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
     """
     if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())

@@ -39,12 +39,7 @@ class Check:
 
 
 def compute_box() -> Computation:
-    """The inner medial axis of a box, as it is computed here.
-
-    Raises
-    ------
-    MedialAxisError
-    """
+    """The inner medial axis of a box, as it is computed here."""
     settings = Settings(sampling=SamplingMode.SURFACE, samples=_SAMPLES)
     return compute(_CORNERS * SIZES, _TRIANGLES, settings)
 

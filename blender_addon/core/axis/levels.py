@@ -15,9 +15,9 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints
 from ..curves.depth import Depth
 from ..machine import native
-from ..machine.cache import CACHE
+from ..machine.cache import CACHE, bytes_of
 from ..machine.progress import Progress
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..settings import Form, Mesh, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
@@ -31,50 +31,41 @@ _INNER = 1  # value of `_medial.Side`
 
 
 def hierarchy_of(
-    samples: AnalysedSamples, settings: Settings, progress: Any | None, places: bool = False
+    samples: Analysed, settings: Settings, progress: Any | None, places: bool = False
 ) -> Any:
     """Return the `_medial.Hierarchy` of analysed samples; the cache learns that they have grown.
 
     Parameters
     ----------
-    samples : AnalysedSamples
+    samples : Analysed
     settings : Settings
         Only `theta`, `rho`, `rule` and `criteria` matter, and `crisp` with `sharp_angle` and `smooth`.
     progress : _medial.Progress or None
     places : bool
         Whether its vertices need crisp places, where the faces give any; even meshes have their own.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
     """
     bodies = 1 if samples.by_faces is None else samples.by_faces[0]
     solid = samples.solid if settings.crisp else None
-    hierarchy = samples.levels.hierarchy(
+    hierarchy = samples.kept.levels.hierarchy(
         samples.analysis, settings, progress, bodies, solid, samples.partners, places
     )
-    CACHE.resize(samples.key, samples.bytes)
+    CACHE.resize(samples.kept.key, bytes_of(samples))
     return hierarchy
 
 
 def extract_level(
-    samples: AnalysedSamples, settings: Settings, progress: Progress | None, relaxed: bool = True
+    samples: Analysed, settings: Settings, progress: Progress | None, relaxed: bool = True
 ) -> MedialAxis:
-    """Extract the axis in the form CLEAN or CURVE: with smoothed curves if it is relaxed, else facets at crisp places.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
-    """
+    """Extract the axis in the form CLEAN or CURVE: with smooth curves if it is relaxed, else facets at crisp places."""
     wanted = _wanted(settings)
     hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.4), not relaxed)
     shown = hierarchy
     if relaxed and settings.form is not Form.CURVE and settings.mesh is Mesh.EVEN:
-        shown = samples.levels.even(hierarchy, settings, progress and progress.part(0.8))
-        CACHE.resize(samples.key, samples.bytes)
+        shown = samples.kept.levels.even(hierarchy, settings, progress and progress.part(0.8))
+        CACHE.resize(samples.kept.key, bytes_of(samples))
     with native.own_errors():
         level = shown.extract(**wanted, relaxed=relaxed, progress=progress and progress.part())
-    ranges, gap = samples.levels.kept("sliders", shown, _of_sliders)
+    ranges, gap = samples.kept.levels.kept("sliders", shown, _of_sliders)
     axis = MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
@@ -115,14 +106,14 @@ def _of_sliders(hierarchy: Any) -> tuple[dict[str, SliderRange], float | None]:
     return ranges_of(hierarchy, area), gap_of(hierarchy, area)
 
 
-def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
+def _depth(samples: Analysed, hierarchy: Any) -> Depth:
     """Return the distances from the faces that decide what is inside, or else from the samples."""
     shape = None if samples.solid is None else samples.solid.shape
-    depth: Depth = samples.levels.kept("depth", hierarchy, lambda _: Depth(samples, shape))
+    depth: Depth = samples.kept.levels.kept("depth", hierarchy, lambda _: Depth(samples, shape))
     return depth
 
 
-def _inside(samples: AnalysedSamples, places: Floats) -> Flags:
+def _inside(samples: Analysed, places: Floats) -> Flags:
     """Return whether places are in the solid, (n,); all of them where no faces decide."""
     if samples.solid is None:
         return np.ones(len(places), np.bool_)

@@ -23,10 +23,6 @@ def polygon_triangles(points: Floats, face_offsets: Ints, face_vertices: Ints) -
         Polygon i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, three at least.
     face_vertices : (c,) int32
         Rows of `points`.
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, OutOfMemoryError
     """
     if len(face_vertices) == 3 * (len(face_offsets) - 1):
         return face_vertices.reshape(-1, 3)

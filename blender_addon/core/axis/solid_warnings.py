@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import differs_warning, sampling_warnings
 from ..samples.sides import cocone_warnings, look_inward, pole_warnings
-from ..samples.topology_loop import overlaps
 from ..settings import SamplingMode, Side, SidesFrom
 from ..severe import Severe
 from ..shape.shape import Shape
@@ -96,9 +95,7 @@ def _of_topology(shape: Shape, chosen: ChosenSamples, betti: tuple[int, int, int
 def _of_parts_that_overlap(chosen: ChosenSamples) -> bool:
     """Return whether parts lie in each other, of which the faces count each by itself."""
     samples = chosen.samples
-    return overlaps(samples) or bool(
-        samples.buried and samples.by_faces and samples.by_faces[0] > 1
-    )
+    return samples.overlaps or bool(samples.buried and samples.by_faces and samples.by_faces[0] > 1)
 
 
 def _of_points_alone(chosen: ChosenSamples) -> Iterator[str]:

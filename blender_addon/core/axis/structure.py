@@ -10,8 +10,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..samples.analysed import AnalysedSamples
-from .spacing import spacing_of
+from ..samples.analysed import Analysed
 
 SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
 JUNCTION, CORNER = 2, 4  # values of `Structure.kind` and `node_kind`
@@ -115,7 +114,7 @@ FIELDS = tuple(Structure.__dataclass_fields__)
 _NAMES = {name: name for name in FIELDS} | {"facet_edges": "edges"}
 
 
-def structure_of(level: Any, samples: AnalysedSamples) -> Structure:
+def structure_of(level: Any, samples: Analysed) -> Structure:
     """Return the structure of a `_medial.Level` of analysed samples."""
     patches = samples.patches
     if patches is None:
@@ -129,6 +128,6 @@ def structure_of(level: Any, samples: AnalysedSamples) -> Structure:
             generators=level.generators,
             wires=level.wires,
             patches=patches,
-            spacing=spacing_of(samples),
+            spacing=samples.neighbours,
         )
     return Structure(**{ours: getattr(found, theirs) for ours, theirs in _NAMES.items()})

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..settings import OPTIONS, Form, SidesFrom
 from .medial_axis import MedialAxis
 
 
-def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
+def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
     """Describe the topology of an axis in a sentence.
 
     The axis has the topology of the solid that the samples enclose. Only where the count of the closed faces agrees
@@ -22,7 +22,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
     axis : MedialAxis
     wanted : Form
         The form of the settings; the axis may have another one.
-    samples : AnalysedSamples
+    samples : Analysed
     """
     if axis.level is None:
         if wanted is Form.PUBLISHED:
@@ -62,9 +62,7 @@ def betti_in_short(betti: Sequence[int]) -> list[str]:
     return found
 
 
-def _why(
-    betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: AnalysedSamples
-) -> str:
+def _why(betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: Analysed) -> str:
     torn = betti[0] > by_faces[0]  # which no overlap does
     overlap = samples.buried > 0 and by_faces[0] > 1  # a single body has no parts that do
     if overlap and torn:

@@ -123,12 +123,7 @@ class Begun:
 
 
 def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE) -> Begun:
-    """Read an item and check whether its output is finished; with `force` it counts as unfinished.
-
-    Raises
-    ------
-    MedialAxisError
-    """
+    """Read an item and check whether its output is finished; with `force` it counts as unfinished."""
     check_name(item.output)
     given, warnings = item.read()
     shape = in_own_frame(given)[0] if isinstance(given, Shape) else given
@@ -194,12 +189,7 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
 
 
 def check_name(output: Path) -> None:
-    """Check that the report next to an output can have its name.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Check that the report next to an output can have its name."""
     if (length := bytes_of(report_path(output).name)) > LONGEST:
         raise InvalidInputError(
             f"Expected the name of an output of at most {LONGEST - len('.json')} bytes, so that its "

@@ -17,12 +17,7 @@ _DEVICE = re.compile(r"(?:CON|PRN|AUX|NUL|CONIN\$|CONOUT\$|(?:COM|LPT)[0-9¹²³
 
 
 def parse_frames(text: str) -> list[int]:
-    """Return the frames of '1-10', '1-9:2' (every second), '7' or a list of these with commas, ascending, each once.
-
-    Raises
-    ------
-    ValueError
-    """
+    """Return the frames of '1-10', '1-9:2' (every second), '7' or a list of these with commas, ascending, each once."""
     frames: set[int] = set()
     for part in text.split(","):
         match = _RANGE.fullmatch(part.strip())

@@ -29,12 +29,7 @@ class Files:
         self._written: dict[object, Path] = {}
 
     def check_not_read(self, output: Path) -> None:
-        """Check that neither an output nor a file that is written next to it is an input.
-
-        Raises
-        ------
-        InvalidInputError
-        """
+        """Check that neither an output nor a file that is written next to it is an input."""
         for path in self._written_with(output):
             if (found := _same_file(path, self._read)) is not None:
                 raise InvalidInputError(
@@ -43,12 +38,7 @@ class Files:
                 )
 
     def claim(self, output: Path) -> None:
-        """Check an output and the files next to it, and reserve their paths for this run.
-
-        Raises
-        ------
-        InvalidInputError
-        """
+        """Check an output and the files next to it, and reserve their paths for this run."""
         self.check_not_read(output)
         for path in self._written_with(output):
             if _same_file(path, self._written) is not None:

@@ -16,10 +16,6 @@ def items_of_parts(item: Item, settings: Settings) -> list[Item]:
     """Read an item and return an item for each connected part of its mesh that has thickness.
 
     The first one has the warnings of the whole.
-
-    Raises
-    ------
-    MedialAxisError
     """
     given, warnings = item.read()
     shape, _ = in_own_frame(given)

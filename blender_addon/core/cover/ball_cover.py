@@ -29,7 +29,6 @@ from ..settings import (
     SidesFrom,
 )
 from ..shape.shape import Shape
-from ..shape.solid_faces import triangles_of_places
 from ..small_matrices import length_of
 from .capsule_segments import evenly, places_inside, segments_of
 from .tight_capsules import Capsules, tight_capsules
@@ -157,11 +156,12 @@ def cover_by_balls(
         The samples span no volume, or enclose none.
     """
     settings = replace(settings, side=Side.INNER)
+    crisp = replace(settings, form=Form.CLEAN).has_crisp_places
     limit = limit.used(
         faces=len(shape.triangles) > 0,
         side=Side.INNER,
         levels=True,
-        triangles=triangles_of_places(shape, replace(settings, form=Form.CLEAN)),
+        triangles=len(shape.triangles) if crisp else 0,
     )
     begun = begin(shape, settings, progress, limit, _ANALYSIS, levels=True)
     shape, chosen, progress = begun.shape, begun.chosen, begun.progress

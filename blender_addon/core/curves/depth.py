@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
 from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
@@ -23,12 +23,12 @@ class Depth:
 
     Parameters
     ----------
-    samples : AnalysedSamples
+    samples : Analysed
     shape : Shape or None
         The faces that decide what is inside; without them the samples are the boundary.
     """
 
-    def __init__(self, samples: AnalysedSamples, shape: Shape | None) -> None:
+    def __init__(self, samples: Analysed, shape: Shape | None) -> None:
         self._samples = samples.points[samples.analysis.samples]
         self._faces: tuple[Floats, Ints] | None = None
         self._offset = samples.offset

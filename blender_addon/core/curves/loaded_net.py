@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats, Longs
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from .ends import Balls
 from .net import Net
 from .owners import owners, shares
@@ -39,13 +39,13 @@ class LoadedNet:
 
 
 def loaded_net(
-    samples: AnalysedSamples, hierarchy: Any, level: Any, anchored: Iterable[int] = ()
+    samples: Analysed, hierarchy: Any, level: Any, anchored: Iterable[int] = ()
 ) -> LoadedNet:
     """Return the net of the wires of a level.
 
     Parameters
     ----------
-    samples : AnalysedSamples
+    samples : Analysed
     hierarchy : _medial.Hierarchy
     level : _medial.Level
     anchored : iterable of int
@@ -65,7 +65,7 @@ def loaded_net(
     return LoadedNet(net, owner, balls, _mean_of_owned(owner, spacing, count))
 
 
-def genuine_loops(samples: AnalysedSamples) -> int:
+def genuine_loops(samples: Analysed) -> int:
     """Return the number of loops that the closed faces have; 0 where they are not closed."""
     return 0 if samples.by_faces is None else samples.by_faces[1]
 

@@ -9,18 +9,18 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Longs
 from ..machine import native
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
 from .ends import Balls, balls_of
 from .spread import graph_of, spread
 
 
-def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[Longs, Balls]:
+def owners(samples: Analysed, hierarchy: Any, level: Any) -> tuple[Longs, Balls]:
     """Return the point that owns each sample, and the balls of the samples that each point owns.
 
     Parameters
     ----------
-    samples : AnalysedSamples
+    samples : Analysed
     hierarchy : _medial.Hierarchy
     level : _medial.Level
         Its vertices are the points.
@@ -48,7 +48,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[Longs,
     return owner, balls_of(owner[touched], *found, touched, len(rows))
 
 
-def _of_the_nearest(owner: Longs, samples: AnalysedSamples) -> Longs:
+def _of_the_nearest(owner: Longs, samples: Analysed) -> Longs:
     """Return the owners; a sample without one gets that of the nearest sample along Delaunay edges."""
     edges = samples.analysis.edges
     edges = edges[(owner[edges] < 0).any(axis=1)]
@@ -57,7 +57,7 @@ def _of_the_nearest(owner: Longs, samples: AnalysedSamples) -> Longs:
     return np.where(owner >= 0, owner, across)
 
 
-def at_openings(samples: AnalysedSamples, hierarchy: Any) -> Flags:
+def at_openings(samples: Analysed, hierarchy: Any) -> Flags:
     """Return which vertices of the hierarchy, (v,), are balls that touch a sample which closes an opening."""
     found = np.zeros(len(hierarchy.vertices), bool)
     if samples.closing:
@@ -89,7 +89,7 @@ def largest_balls(hierarchy: Any, count: int) -> Longs:
     return ball
 
 
-def shares(samples: AnalysedSamples) -> tuple[Floats, Floats]:
+def shares(samples: Analysed) -> tuple[Floats, Floats]:
     """Return the spacing around each sample, (n,), and its share of the surface, (n,); both are 0 for duplicates.
 
     At sharp edges and isolated samples the umbrella may be as large as the solid, so the spacing is limited to three

@@ -11,12 +11,7 @@ from ..errors import ExportError
 
 
 def extension_of(path: str | os.PathLike, known: Iterable[str]) -> str:
-    """Return the extension of `path` in lower case, which must be one of the known extensions.
-
-    Raises
-    ------
-    ExportError
-    """
+    """Return the extension of `path` in lower case, which must be one of the known extensions."""
     suffix = Path(path).suffix.lower()
     if suffix not in known:
         raise ExportError(

@@ -15,12 +15,7 @@ from .numpy_arrays import read_arrays
 
 
 def load_axis(path: str | os.PathLike) -> MedialAxis:
-    """Read a medial axis back, exactly as it was written.
-
-    Raises
-    ------
-    ReadError
-    """
+    """Read a medial axis back, exactly as it was written."""
     arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES, *STRUCTURE_NAMES))
     wanted = set(NAMES) - {"edges"}  # files of earlier versions have none, and no `place`
     if "shown" in arrays:

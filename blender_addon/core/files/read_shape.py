@@ -23,10 +23,6 @@ def read_shape(
     path : path of the file
     limit : MemoryLimit, optional
         The memory that the analysis may need. A cloud that needs more, and must not be thinned, is not unpacked.
-
-    Raises
-    ------
-    ReadError, NativeModuleError, OutOfMemoryError
     """
     if limit is not None and limit.above_limit is AboveLimit.REFUSE:
         limit.used(faces=False).check(points_of_cloud(path))

@@ -46,10 +46,6 @@ def check_stl(points: Floats, frame: Floats | None, length: float) -> None:
         From the units of `length` to the world.
     length : float
         The wall, or what else the points have to show.
-
-    Raises
-    ------
-    ExportError
     """
     least = 1.0 if frame is None else float(np.sqrt((frame[:3, :3] ** 2).sum(axis=0)).min())
     moved = _moved(points)

@@ -15,7 +15,7 @@ from ..machine.progress import Progress
 from ..samples.buried_samples import bounding_share
 from ..samples.mesh_parts import check_no_sheet
 from ..settings import HollowSettings
-from ..shape.outward_faces import are_left_out, outward_shape, reading_warnings
+from ..shape.outward_faces import outward_shape, reading_warnings
 from ..shape.own_frame import rounding_warning
 from ..shape.shape import Shape
 from ..shape.triangle_faces import TriangleFaces
@@ -114,7 +114,7 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
     _check(shape)
     diagonal = length_of(np.ptp(shape.points[shape.triangles.ravel()], axis=0))
     wanted = replace(wanted, wall=wanted.wall or _WALL * diagonal)
-    faces = shape.triangles[~are_left_out(shape)]
+    faces = shape.triangles[~shape.left_out]
     step = _step(shape, wanted)
     surface = _surface(shape.points, faces, wanted.wall, step, progress)
     if not len(surface.triangles):

@@ -7,6 +7,7 @@ import hashlib
 import numbers
 import threading
 from collections import OrderedDict
+from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any
 
@@ -66,6 +67,21 @@ def _text_of(part: Any) -> tuple[str, bytes]:
         f"Expected arrays of numbers, texts, numbers, None, members of enums or tuples of these in a key, "
         f"found {type(part).__name__}; convert it"
     )
+
+
+def bytes_of(value: Any) -> int:
+    """Return the memory of all that plain data holds: each array once, and what knows its own `bytes`."""
+    found: dict[int, int] = {}
+    left = [value]
+    while left:
+        one = left.pop()
+        if isinstance(one, np.ndarray):
+            found[id(one)] = one.nbytes
+        elif is_dataclass(one):
+            left += [getattr(one, part.name) for part in fields(one)]
+        elif hasattr(one, "bytes"):
+            found[id(one)] = int(one.bytes)
+    return sum(found.values())
 
 
 class AnalysisCache:

@@ -43,10 +43,6 @@ def reserve_matrices() -> None:
     """Let OpenBLAS map its buffer if addresses are limited; call it before anything else needs them.
 
     OpenBLAS maps the buffer at the first product of matrices and keeps it. If there is no room, it tries again forever.
-
-    Raises
-    ------
-    OutOfMemoryError
     """
     if not are_few() or "openblas" not in Path("/proc/self/maps").read_text(errors="replace"):
         return

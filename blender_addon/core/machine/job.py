@@ -131,12 +131,7 @@ class Job:
         return found if len(found) == self._drafts else []
 
     def outcomes(self) -> list[Outcome]:
-        """Wait for the thread, and return the outcome of each task, in order.
-
-        Raises
-        ------
-        Cancelled
-        """
+        """Wait for the thread, and return the outcome of each task, in order."""
         self._join()
         if self._failure is not None:
             raise self._failure

@@ -85,12 +85,7 @@ class MemoryLimit(Options):
         return memory_needed(points, self.use)
 
     def check(self, points: int) -> None:
-        """Check that this many points can be analysed; call it before the analysis.
-
-        Raises
-        ------
-        MemoryLimitError
-        """
+        """Check that this many points can be analysed; call it before the analysis."""
         room, needed = self._room(), self.needed(points)
         if needed > room:
             raise MemoryLimitError(

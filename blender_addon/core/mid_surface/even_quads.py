@@ -31,10 +31,6 @@ def even_quads(faces: SheetFaces, length: float, progress: Progress | None = Non
     length : float
         Of the edges that are wanted.
     progress : Progress, optional
-
-    Raises
-    ------
-    NativeModuleError, Cancelled
     """
     faces = _with_borders_divided(faces, length)
     alone = np.bincount(faces.part)[faces.part] == 1

@@ -36,10 +36,6 @@ def even_triangles(
     triangles : (s, 3) int32
     part : (s,) int32
         Ascending.
-
-    Raises
-    ------
-    NativeModuleError, Cancelled
     """
     points, triangles, of = divided(points, triangles, _LONGEST * length)
     part = part[of]

@@ -26,7 +26,7 @@ from ..samples.sample_spacing import mean_spacing
 from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, ThicknessSettings
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
-from ..shape.sharp_angle import sharp_angle_of
+from ..shape.solid_faces import sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough

@@ -77,7 +77,7 @@ def thin_sheets(axis: MedialAxis, patches: Ints | None, least_width: float) -> T
     axis : MedialAxis
         A clean axis of the inside with its structure.
     patches : (n, 2) int32 or None
-        The patches of the samples, as of `AnalysedSamples`.
+        The patches of the samples, as of `Analysed`.
     least_width : float
         So many times as wide as its thickness a wall is at least.
     """

@@ -26,12 +26,7 @@ class ThicknessPage:
     def measured(
         self, item: Item, limit: MemoryLimit, run: Callable[[Task], Outcome]
     ) -> dict[str, Any]:
-        """Measure an item, give it a row, and return its report.
-
-        Raises
-        ------
-        MedialAxisError
-        """
+        """Measure an item, give it a row, and return its report."""
         work = self._work
         begun = begin(replace(item, output=self._path), work, True, limit)
         found = result_of(begun, run(begun.task))

@@ -62,12 +62,7 @@ def cover_robot(
     progress: Progress,
     limit: MemoryLimit,
 ) -> RobotCover:
-    """Cover the links one after the other; one that cannot be used stays as it was, with a warning.
-
-    Raises
-    ------
-    OutOfMemoryError, Cancelled
-    """
+    """Cover the links one after the other; one that cannot be used stays as it was, with a warning."""
     start, covers = time.perf_counter(), []
     for row, link in enumerate(robot.links):
         progress.begin_section(row / len(robot.links), (row + 1) / len(robot.links))

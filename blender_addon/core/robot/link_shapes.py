@@ -38,12 +38,7 @@ def volume_of(balls: Balls) -> float:
 def cover_link(
     shape: Shape, settings: Settings, wanted: LinkSettings, progress: Progress, limit: MemoryLimit
 ) -> BallCover:
-    """Cover a link; with a tolerance by the first of 1, 2, 4, ... shapes that keep within it, or by the closest of all.
-
-    Raises
-    ------
-    MedialAxisError
-    """
+    """Cover a link; with a tolerance by the first of 1, 2, 4, ... shapes that keep it, or by the closest of all."""
 
     def cover(count: int) -> BallCover:
         return cover_by_balls(shape, settings, replace(wanted.balls, count=count), progress, limit)

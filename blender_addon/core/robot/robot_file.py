@@ -78,12 +78,7 @@ class RobotFile:
 def read_robot(
     path: str | os.PathLike, limit: MemoryLimit | None = None
 ) -> tuple[RobotFile, tuple[str, ...]]:
-    """Read a URDF with the meshes that it names, and warnings.
-
-    Raises
-    ------
-    ReadError
-    """
+    """Read a URDF with the meshes that it names, and warnings."""
     try:
         data = Path(path).read_bytes()
     except OSError as error:

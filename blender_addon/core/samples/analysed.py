@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plain data of an analysis: the request, the decision between inside and outside, and the analysed samples."""
+"""Plain data of a pass: the decision between inside and outside, samples, and samples with their analysis."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
-from numpy.typing import NDArray
+import numpy as np
 
 from ..arrays import Floats, Ints
-from ..machine.memory_limit import MemoryLimit
-from ..machine.progress import Progress
-from ..settings import OPTIONS, Settings, SidesFrom
-from ..shape.shape import Shape
+from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
 from .density import Density
 from .levels import Levels
-from .walls import Walls
+from .walls import Places, Walls
+
+# Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
+# the largest one that counts.
+_LARGEST = 3.0
+_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
+_BURIED = 0.01  # so large a share of the samples may be buried, for foils are too thin to tell
 
 
 @dataclass(frozen=True)
@@ -41,36 +45,8 @@ class Sides:
 
 
 @dataclass(frozen=True, eq=False)
-class Request:
-    """A shape to analyse, and how to analyse it.
-
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-        `side` is not AUTOMATIC.
-    progress : Progress
-    limit : MemoryLimit
-    gaps : int
-        The number of edges at which the faces of the shape are open.
-    bounding_sphere : bool
-        The samples are surrounded by a sphere of further points, which give every sample an outer pole.
-    levels : bool
-        The hierarchy will be needed, so it may as well be computed while samples are chosen.
-    """
-
-    shape: Shape
-    settings: Settings
-    progress: Progress
-    limit: MemoryLimit
-    gaps: int
-    bounding_sphere: bool
-    levels: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class AnalysedSamples:
-    """Points, the properties of the surface at each of them, and their analysis.
+class Samples:
+    """Points to analyse, and the properties of the surface at each of them.
 
     Parameters
     ----------
@@ -79,58 +55,108 @@ class AnalysedSamples:
         Values of `_medial.SampleKind`; None where the points are vertices.
     normals : (n, 3) float64 or None
         Outward normals of the surface at the points.
-    analysis : _medial.MedialAnalysis
-    density : Density
     spacing : float
-        The distance of neighbours in the first pass of samples; 0.0 where the points are vertices.
+        The distance of neighbours, once analysed that of the first pass; 0.0 where the points are vertices.
     buried : int
         The number of samples that were left out because the surface there bounds nothing.
     closing : int
-        The number of points that close openings of the surface.
-    walls : Walls or None
-        How thin the shape is there; None where there are no faces to measure.
+        The number of points that close openings of the surface; they come last.
     rows : (n,) int32 or None
         The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
-    key : str
-        The name of these samples in the cache.
-    by_faces : tuple of int or None
-        Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible.
-    levels : Levels
-        The hierarchy, once a form has needed it.
     faces : (n,) int32 or None
         The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
-    solid : SolidFaces or None
-        The faces that bound the solid, if they decide what is inside.
-    patches : (n, 2) int32 or None
-        The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None where
-        there are no faces.
     apart : (n,) float64 or None
         The wanted distance of neighbours at each sample; None where the points are vertices.
     partners : (n,) int32 or None
         The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs.
     offset : float
         How far outside of the surface that is meant the samples lie; radii are less by this.
+    radius : (k,) float64 or None
+        The radius of the disc of each sample of a face; None once they are analysed, like `edges` and `places`.
+    edges : (m, 3) float64 or None
+        The points on edges and corners of the solid, where the feature size is 0.
+    places : Places or None
+        The flat faces below the samples, where opposite walls are looked for.
     """
 
     points: Floats
-    kinds: Ints | None
-    normals: Floats | None
-    analysis: Any
-    density: Density
+    kinds: Ints | None = None
+    normals: Floats | None = None
     spacing: float = 0.0
     buried: int = 0
     closing: int = 0
-    walls: Walls | None = None
     rows: Ints | None = None
-    key: str = ""
-    by_faces: tuple[int, int, int] | None = None
-    levels: Levels = field(default_factory=Levels)
     faces: Ints | None = None
-    solid: SolidFaces | None = None
-    patches: Ints | None = None
     apart: Floats | None = None
     partners: Ints | None = None
     offset: float = 0.0
+    radius: Floats | None = None
+    edges: Floats | None = None
+    places: Places | None = None
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A name and hierarchies, which the cache keeps beside the results of an analysis.
+
+    Parameters
+    ----------
+    key : str
+        The name in the cache.
+    levels : Levels
+        The hierarchy, once a form has needed it.
+    """
+
+    key: str = ""
+    levels: Levels = field(default_factory=Levels)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Analysed(Samples):
+    """Samples and their analysis.
+
+    Parameters
+    ----------
+    analysis : _medial.MedialAnalysis
+    density : Density
+    walls : Walls or None
+        How thin the shape is there; None where there are no faces to measure.
+    by_faces : tuple of int or None
+        Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible.
+    solid : SolidFaces or None
+        The faces that bound the solid, if they decide what is inside.
+    patches : (n, 2) int32 or None
+        The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None where
+        there are no faces.
+    kept : Kept
+    """
+
+    analysis: Any
+    density: Density
+    walls: Walls | None = None
+    by_faces: tuple[int, int, int] | None = None
+    solid: SolidFaces | None = None
+    patches: Ints | None = None
+    kept: Kept = field(default_factory=Kept)
+
+    @cached_property
+    def neighbours(self) -> Floats:
+        """The distance of neighbours at each sample, (n,); duplicates have 0."""
+        if self.apart is not None:
+            return self.apart
+        spacing, found = np.zeros(len(self.points)), self.analysis.spacing * _PER_HOLE
+        spacing[self.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
+        return spacing
+
+    @cached_property
+    def overlaps(self) -> bool:
+        """Whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
+        return self.buried > _BURIED * len(self.points)
+
+    @cached_property
+    def walls_are_close(self) -> bool:
+        """Whether the axis is missing between walls that are close."""
+        return not self.overlaps and self.walls is not None and self.walls.are_missed
 
     @property
     def walls_to_show(self) -> Walls | None:
@@ -140,27 +166,3 @@ class AnalysedSamples:
         spurious bits of axis.
         """
         return None if self.buried else self.walls
-
-    @property
-    def bytes(self) -> int:
-        """The memory that these samples, their analysis and its hierarchy take."""
-        density = self.density
-        own = (
-            self.points,
-            self.kinds,
-            self.normals,
-            self.rows,
-            self.faces,
-            self.patches,
-            self.apart,
-            self.partners,
-        )
-        others = (density.points, density.spacing, density.feature_size, density.edges)
-        walls = self.walls
-        more: tuple[NDArray, ...] = ()
-        if walls:
-            more = (walls.points, walls.distance, walls.spacing, walls.area, walls.faces)
-        solid = () if self.solid is None else self.solid.arrays
-        kept = {id(x): x for x in (*own, *others, *more, *solid) if x is not None}
-        arrays = kept.values()
-        return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)

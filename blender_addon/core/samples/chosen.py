@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from ..machine.progress import Progress
 from ..settings import SamplingMode
 from ..shape.shape import Shape
-from .analysed import AnalysedSamples, Sides
+from .analysed import Analysed, Sides
+from .doubts import WorstDoubt
 from .scan import Scan
-from .worst_doubt import WorstDoubt
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +20,7 @@ class ChosenSamples:
 
     Parameters
     ----------
-    samples : AnalysedSamples
+    samples : Analysed
     sampling : SamplingMode
         How the samples were made; never AUTOMATIC.
     reason : str
@@ -41,7 +41,7 @@ class ChosenSamples:
         What was measured of points without faces, and done to them; None where there are faces.
     """
 
-    samples: AnalysedSamples
+    samples: Analysed
     sampling: SamplingMode
     reason: str
     sides: Sides

@@ -94,7 +94,7 @@ class Density:
         """The epsilon that 95 percent of the counted samples stay below."""
         return self._quantile(0.95)
 
-    @property
+    @cached_property
     def dense_enough(self) -> bool:
         """Whether another pass would change little, as it does at sharp edges."""
         return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH

@@ -62,17 +62,13 @@ class Levels:
         solid : SolidFaces, optional
             The faces that give crisp places, always the same ones; without them there are none.
         partners : (n,) int32, optional
-            As in `AnalysedSamples`, always the same ones.
+            As in `Analysed`, always the same ones.
         places : bool
             Whether the vertices of the hierarchy need crisp places, which take long.
-
-        Raises
-        ------
-        OutOfMemoryError, Cancelled
         """
-        faces = () if solid is None else solid.options(settings)
+        faces = None if solid is None else solid.options(settings)
         theta, rho = (settings.theta, settings.rho) if places else _thresholds_of_mesh(settings)
-        thresholds = (theta, rho, settings.rule, settings.criteria, *faces)
+        thresholds = (theta, rho, settings.rule, settings.criteria, faces)
         places = places and solid is not None
         newest = self._newest
         if newest is not None and newest[0] == thresholds and (len(newest[1].place) or not places):
@@ -87,7 +83,7 @@ class Levels:
                 getattr(module.Criteria, settings.criteria.name),
                 module.Side.INNER,
                 bodies=bodies,
-                faces=None if solid is None else solid.of_module(module, settings),
+                faces=solid and faces and solid.of_module(module, *faces),
                 partners=partners,
                 places=places,
                 progress=progress,
@@ -99,10 +95,6 @@ class Levels:
         """Return the `_medial.Hierarchy` of the even mesh of a hierarchy, at the thresholds of the settings.
 
         The mesh is made again for limbs below the usual ones; all else is a level of the mesh.
-
-        Raises
-        ------
-        OutOfMemoryError, Cancelled
         """
         limb = min(settings.limb, Settings().limb)
         level = {"limb": limb / 100, "crisp": settings.crisp}

@@ -15,8 +15,8 @@ from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.bent_sheets import bent_sheets
 from ..shape.check_faces import check_not_flat
-from ..shape.outward_faces import OF_SHEETS, TURNED, outward_shape
-from ..shape.shape import Shape
+from ..shape.outward_faces import outward_shape
+from ..shape.shape import OF_SHEETS, TURNED, Shape
 from .sample_spacing import first_pass
 from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
 

@@ -43,10 +43,6 @@ def smooth_faces(
     settings : Settings
         Only `prepare` and `sides` matter; a wrap has its own faces.
     progress : _medial.Progress, optional
-
-    Raises
-    ------
-    InvalidInputError, Cancelled
     """
     if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
         return shape, ""

@@ -5,16 +5,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..arrays import Floats
 from ..settings import SamplingMode, Settings
-from ..shape.nearness import near
 from ..shape.shape import Shape
 from ..small_matrices import length_of
-from .analysed import AnalysedSamples
 
+_LATER = 0.6  # the share of the work left that a pass after the first one is
 _MANY = 2**53  # samples; more than any memory holds
 
 
@@ -23,37 +22,39 @@ def mean_spacing(area: float, count: int) -> float:
     return math.sqrt(2.0 * area / (math.sqrt(3.0) * count))
 
 
-@dataclass(frozen=True)
-class FirstPass:
-    """The size of the first pass.
+@dataclass(frozen=True, eq=False)
+class Amount:
+    """How many samples a pass takes from the faces, where, and whether in pairs.
 
     Parameters
     ----------
-    amount : dict
-        The `count` or the `spacing`, as an argument of `_medial.sample_surface`.
+    count : int
+        About how many samples a first pass takes, where vertices that Keep Vertices adds do not count; else the most.
     spacing : float
-        The distance of neighbours.
-    area : float
-        The area of the faces.
+        The distance of neighbours in a first pass.
+    share : float
+        The share of the work left that the pass is.
+    by_spacing : bool
+        The spacing was chosen, and the number follows from it.
+    sizing : pair of arrays, optional
+        (k, 3) sites and (k,) the spacings there; None in a first pass.
+    pairs : bool
+        In pairs, whatever the settings say.
+    flat : float
+        The samples lie on the flat faces, with edges that are sharp from this angle on; 0.0: as the settings say.
     """
 
-    amount: dict[str, Any]
+    count: int
     spacing: float
-    area: float
-
-    @property
-    def count(self) -> int:
-        """The approximate number of samples; vertices that Keep Vertices adds do not count."""
-        if "count" in self.amount:
-            return int(self.amount["count"])
-        square = self.spacing**2  # 0 for tiny spacings
-        if not square:
-            return _MANY
-        return round(min(2.0 * self.area / math.sqrt(3.0), _MANY * square) / square)
+    share: float = _LATER
+    by_spacing: bool = False
+    sizing: tuple[Floats, Floats] | None = None
+    pairs: bool = False
+    flat: float = 0.0
 
 
-def first_pass(shape: Shape, settings: Settings) -> FirstPass:
-    """Plan the first pass.
+def first_pass(shape: Shape, settings: Settings) -> Amount:
+    """Return the amount of the first pass.
 
     Automatic takes no fewer samples than the faces have vertices, within the budget.
     """
@@ -62,38 +63,14 @@ def first_pass(shape: Shape, settings: Settings) -> FirstPass:
         count = settings.samples
         if settings.sampling is SamplingMode.AUTOMATIC:
             count = max(count, min(len(corners), settings.budget))
-        return FirstPass({"count": count}, mean_spacing(shape.area, count), shape.area)
+        return Amount(count, mean_spacing(shape.area, count))
     spacing = settings.spacing / 100.0 * length_of(np.ptp(corners, axis=0))
-    return FirstPass({"spacing": spacing}, spacing, shape.area)
+    return Amount(_count_of(spacing, shape.area), spacing, by_spacing=True)
 
 
-def next_amount(
-    samples: AnalysedSamples, finest: float, finest_walls: float, budget: int
-) -> dict[str, Any]:
-    """Arguments of `_medial.sample_surface` for the next pass: the spacings that the density of this one requires.
-
-    Where walls are so close that the axis between them is missing, the feature size means nothing. There the walls
-    determine the spacing.
-
-    Parameters
-    ----------
-    samples : AnalysedSamples
-    finest : float
-        The smallest spacing away from sharp edges, as a share of the first pass's, which is the largest anywhere.
-    finest_walls : float
-        The same share for close walls.
-    budget : int
-    """
-    density, walls = samples.density, samples.walls_to_show
-    least = np.where(density.at_edge, density.finest, finest * samples.spacing)
-    spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
-    if density.paired is not None:
-        spacings[density.paired] = samples.spacing
-    sites = density.points
-    if walls is not None and walls.are_missed:
-        between, wanted = walls.wanted(finest_walls * samples.spacing)
-        # Sites next to walls that require no finer spacing, as on a sharp edge, would keep the walls coarse.
-        left = (spacings < samples.spacing) | ~near(sites, between, samples.spacing)
-        sites = np.concatenate((sites[left], between))
-        spacings = np.concatenate((spacings[left], np.minimum(wanted, samples.spacing)))
-    return {"sizing": (sites, spacings), "count": budget}
+def _count_of(spacing: float, area: float) -> int:
+    """Return about how many samples with this spacing an area takes."""
+    square = spacing**2  # 0 for tiny spacings
+    if not square:
+        return _MANY
+    return round(min(2.0 * area / math.sqrt(3.0), _MANY * square) / square)

@@ -15,7 +15,7 @@ from ..shape.nearness import sample_of_row
 from ..shape.shape import Shape
 from ..shape.triangle_faces import TriangleFaces
 from ..small_matrices import dot
-from .analysed import AnalysedSamples
+from .analysed import Analysed
 from .choose_samples import begin
 from .chosen import ChosenSamples
 from .density import Density, estimate
@@ -73,10 +73,6 @@ def report_sampling(
     settings : Settings
     progress : Progress, optional
     limit : MemoryLimit
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings, given = settings.with_side(), shape
     shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
@@ -111,7 +107,7 @@ def _moved(given: Shape, shape: Shape, chosen: ChosenSamples) -> Floats:
     return np.zeros(count)
 
 
-def _of_all(samples: AnalysedSamples) -> Density:
+def _of_all(samples: Analysed) -> Density:
     """Return the density at every sample, also where a selection was enough to choose the samples."""
     found, analysis = samples.density, samples.analysis
     if len(found.points) == len(analysis.samples):

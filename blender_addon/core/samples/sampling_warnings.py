@@ -10,14 +10,14 @@ import numpy as np
 from ..settings import SamplingMode
 from ..severe import Severe
 from ..shape.nearness import same_place
-from ..shape.outward_faces import are_left_out, reading_warnings
+from ..shape.outward_faces import reading_warnings
 from ..shape.own_frame import rounding_warning
 from ..shape.shape import Shape
 from ..small_matrices import placed
 from .chosen import ChosenSamples
 from .density import percent
+from .doubts import words_of_place
 from .scan import is_noisy, scan_warnings
-from .worst_doubt import words_of_place
 
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 
@@ -103,7 +103,7 @@ def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:
     """Count the vertices that belong to no face, where faces were sampled; 0 for curves and texts."""
     if chosen.sampling is SamplingMode.VERTICES or not shape.of_samples:
         return 0
-    if not are_left_out(shape).any():
+    if not shape.left_out.any():
         return len(shape.points) - len(np.unique(shape.triangles))
     place = same_place(shape.points)  # the corners of a face that was left out are those of another
     return len(np.unique(place)) - len(np.unique(place[shape.triangles]))

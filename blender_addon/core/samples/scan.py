@@ -104,10 +104,6 @@ def prepared(
     shape : Shape
     settings : Settings
     progress : Progress, optional
-
-    Raises
-    ------
-    InvalidInputError, Cancelled
     """
     if len(shape.triangles) or len(shape.points) == 0:
         return shape, None

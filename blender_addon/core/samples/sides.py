@@ -30,6 +30,7 @@ _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 # Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a
 # wavy sheet does.
 _BOUNDING = 0.75
+_CLOSED = "the faces are closed"
 
 
 def resolve_sides(wanted: SidesFrom, triangles: Ints, gaps: int, normals: Floats | None) -> Sides:
@@ -50,7 +51,13 @@ def resolve_sides(wanted: SidesFrom, triangles: Ints, gaps: int, normals: Floats
     """
     has_normals = normals is not None and bool(normals.any())
     if wanted is SidesFrom.AUTOMATIC:
-        return _automatic(len(triangles) > 0, gaps, has_normals)
+        source = _automatic(len(triangles) > 0 and gaps == 0, has_normals)
+        if source is SidesFrom.SURFACE:
+            return Sides(source, _CLOSED)
+        left = SidesFrom.AUTOMATIC if source is SidesFrom.TIGHT_COCONE else source
+        if len(triangles):
+            return Sides(left, f"the mesh is open at {gaps:,} edges")
+        return Sides(left, "the points have no faces" + ("" if has_normals else " and no normals"))
     if wanted is SidesFrom.SURFACE and not len(triangles):
         raise InvalidInputError(
             "Expected faces for Inside Decided By Surface, found points only; "
@@ -82,17 +89,17 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     """
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
-    if gaps == 0:
-        return Sides(SidesFrom.SURFACE, "the faces are closed")
-    if outer_share(shape, spacing) >= _BOUNDING:
-        reason = f"the winding number of the faces, for the mesh is open at {gaps:,} edges"
-        return Sides(SidesFrom.SURFACE, reason)
-    if _turned(shape.points, shape.triangles) > _TURNED:
-        reason = (
-            f"the mesh is open at {gaps:,} edges, and its faces cannot be turned to the same side"
-        )
-        return Sides(SidesFrom.TIGHT_COCONE, reason)
-    return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
+    bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
+    turned = bounded or _turned(shape.points, shape.triangles) <= _TURNED
+    is_open = f"the mesh is open at {gaps:,} edges"
+    by_winding = f"the winding number of the faces, for {is_open}"
+    reasons = {
+        SidesFrom.SURFACE: by_winding if gaps else _CLOSED,
+        SidesFrom.NORMALS: f"those of the faces, for {is_open}",
+        SidesFrom.TIGHT_COCONE: f"{is_open}, and its faces cannot be turned to the same side",
+    }
+    source = _automatic(bounded, turned)
+    return Sides(source, reasons[source])
 
 
 def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flags:
@@ -154,14 +161,10 @@ def _turned(points: Floats, triangles: Ints) -> float:
     return 1.0 - len(np.unique(edges)) / len(edges)
 
 
-def _automatic(has_faces: bool, gaps: int, has_normals: bool) -> Sides:
-    if has_faces and gaps == 0:
-        return Sides(SidesFrom.SURFACE, "the faces are closed")
-    if has_faces:
-        reason = f"the mesh is open at {gaps:,} edges"
-    else:
-        reason = "the points have no faces" + ("" if has_normals else " and no normals")
-    return Sides(SidesFrom.NORMALS if has_normals else SidesFrom.AUTOMATIC, reason)
+def _automatic(bounded: bool, has_normals: bool) -> SidesFrom:
+    """Return the source that the compiled module takes for AUTOMATIC: the rule is there."""
+    with native.own_errors() as module:
+        return SidesFrom[module.automatic_sides(bounded, has_normals).name]
 
 
 def decided(sides: Sides, analysis: Any) -> Sides:

@@ -11,7 +11,6 @@ from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..portable_cosine import cosine
 from ..settings import SamplingMode, SidesFrom
-from ..shape.outward_faces import are_left_out
 from ..shape.shape import Shape
 from ..small_matrices import dot
 from .chosen import ChosenSamples
@@ -76,7 +75,7 @@ def surface_normals(
 
 def _are_corners(shape: Shape, chosen: ChosenSamples) -> bool:
     of_faces = chosen.sides.source is SidesFrom.SURFACE
-    all_faces = not are_left_out(shape).any()
+    all_faces = not shape.left_out.any()
     return (
         chosen.sampling is SamplingMode.VERTICES and of_faces and all_faces and shape.rows is None
     )

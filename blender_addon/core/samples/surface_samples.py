@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples of the faces of a shape, without those at which the surface bounds nothing."""
+"""Samples of the faces of a shape, without those at which the surface bounds nothing, and of its openings."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from ..arrays import Flags, Floats, Ints, Longs
+from ..arrays import Flags, Ints, Longs
 from ..errors import DegenerateInputError
 from ..machine import native
-from ..shape.outward_faces import check_some_left
 from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
+from .analysed import Samples
 from .buried_samples import find_bare, on_flat_faces
+from .decide import Plan
 from .sample_spacing import mean_spacing
 from .walls import Places
 
@@ -26,72 +27,25 @@ _OF_SHELL = 12
 _FINEST = 1e-6  # of the extent: the least spacing, which the grid of the sampler can hold
 
 
-@dataclass(frozen=True, eq=False)
-class FaceSamples:
-    """Samples of faces before their analysis.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    edges : (m, 3) float64
-        The points on edges and corners of the solid, where the feature size is 0.
-    normals : (n, 3) float64
-        Outward.
-    kinds : (n,) int32
-        Values of `_medial.SampleKind`.
-    faces : (n,) int32
-        The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
-    radius : (n,) float64
-        The radius of the disc of each sample of a face; samples that close openings come last and have none.
-    spacing : float
-        The mean distance of neighbours.
-    buried : int
-        The number of samples that were left out because the surface there bounds nothing.
-    closing : int
-        The number of samples that close openings.
-    places : Places
-        The flat faces below the samples, where opposite walls are looked for.
-    partners : (n,) int32
-        The row of the sample on the opposite wall, or -1.
-    """
-
-    points: Floats
-    edges: Floats
-    normals: Floats
-    kinds: Ints
-    faces: Ints
-    radius: Floats
-    spacing: float
-    buried: int
-    closing: int
-    places: Places
-    partners: Ints
-
-
-def sample_faces(
-    shape: Shape, options: dict[str, Any], gaps: int, closed: bool, progress: Any
-) -> FaceSamples:
+def sample_faces(plan: Plan, options: dict[str, Any], progress: Any) -> Samples:
     """Sample the faces of a shape.
 
+    Without samples that close openings, those at which an open surface bounds nothing cannot be determined, and none is
+    left out.
+
     Parameters
     ----------
-    shape : Shape
+    plan : Plan
     options : dict
         Arguments of `_medial.sample_surface`.
-    gaps : int
-        The number of edges at which the faces are open.
-    closed : bool
-        Samples will close these openings. Without them the samples at which an open surface bounds nothing cannot be
-        determined, and none is left out.
     progress : _medial.Progress
 
     Raises
     ------
-    InvalidInputError, OutOfMemoryError, Cancelled
     DegenerateInputError
         The surface bounds nothing.
     """
-    check_some_left(shape)
+    shape, closed = plan.given.shape, plan.closes_openings
     all_rows = np.arange(len(shape.triangles), dtype=np.int64)
     rows = shape.unfolded if options["pairs"] else all_rows
     found = _sampled(shape, rows, options, progress)
@@ -101,22 +55,22 @@ def sample_faces(
     spacing = mean_spacing(found.area, max(1, len(found.points)))
     faces = rows[found.triangle].astype(np.int32)
     feet, outward = on_flat_faces(shape, found, faces, spacing)
-    every = gaps > 0 and not closed
+    is_open = shape.open_edges > 0
     bare, buried = np.ones(len(feet), bool), 0
-    if not every:
+    if closed or not is_open:
         bare, buried = find_bare(shape, feet, outward, spacing, options["pairs"])
     _check_some(bare)
     inside, radius = bare & _are_inside_faces(found.kind), found.radius
-    return FaceSamples(
+    return Samples(
         points=found.points[bare],
-        edges=found.points[bare & _are_on_edges(found.kind, gaps, closed)],
+        edges=found.points[bare & _are_on_edges(found.kind, is_open, closed)],
         normals=found.normals[bare],
         kinds=found.kind[bare],
         faces=faces[bare],
         radius=radius[bare],
+        apart=radius[bare] / _DISC,
         spacing=spacing,
         buried=buried,
-        closing=0,
         places=Places(
             feet[inside],
             outward[inside],
@@ -127,7 +81,37 @@ def sample_faces(
             are_paired(found.partner)[inside],
             np.linalg.norm(found.points - feet, axis=1)[inside],
         ),
-        partners=_of_rows(found.partner, bare),
+        partners=_of_rows(found.partner, bare) if options["pairs"] else None,
+        offset=shape.offset,
+    )
+
+
+def close_openings(plan: Plan, samples: Samples, progress: Any) -> Samples:
+    """Append samples of the openings of a surface, where the winding number of its faces is one half."""
+    shape, partners = plan.given.shape, samples.partners
+    with native.own_errors() as module:
+        more, outward, _ = module.closing_samples(
+            samples.points,
+            samples.normals,
+            samples.radius,
+            shape.points,
+            shape.triangles,
+            seed=plan.given.settings.seed,
+            progress=progress,
+        )
+        opening = np.full(len(more), int(module.SampleKind.OPENING), np.int32)
+    assert samples.normals is not None and samples.kinds is not None
+    assert samples.faces is not None and samples.apart is not None
+    none = np.full(len(more), -1, np.int32)
+    return replace(
+        samples,
+        points=np.concatenate((samples.points, more)),
+        normals=np.concatenate((samples.normals, outward)),
+        kinds=np.concatenate((samples.kinds, opening)),
+        faces=np.concatenate((samples.faces, none)),
+        apart=np.concatenate((samples.apart, np.full(len(more), samples.spacing))),
+        partners=None if partners is None else np.concatenate((partners, none)),
+        closing=len(more),
     )
 
 
@@ -186,13 +170,6 @@ def _of_rows(partners: Ints, kept: Flags) -> Ints:
     return np.where(partners >= 0, number[partners], np.int32(-1))
 
 
-def apart_of(samples: FaceSamples) -> Floats:
-    """Return the wanted distance of neighbours at each sample, (n,); where samples close openings, the mean one."""
-    apart = np.full(len(samples.points), samples.spacing)
-    apart[: len(samples.radius)] = samples.radius / _DISC
-    return apart
-
-
 def _are_inside_faces(kinds: Ints) -> Flags:
     """Mark the samples in the interior of faces, (n,), or all samples if those are a minority.
 
@@ -203,7 +180,7 @@ def _are_inside_faces(kinds: Ints) -> Flags:
     return inside if 2 * np.count_nonzero(inside) > len(kinds) else np.ones(len(kinds), bool)
 
 
-def _are_on_edges(kinds: Ints, gaps: int, closed: bool) -> Flags:
+def _are_on_edges(kinds: Ints, is_open: bool, closed: bool) -> Flags:
     """Mark the samples of edges and corners of the solid, (n,), where the feature size is 0.
 
     Where an opening is closed its rim is an edge of the solid. Corners of a mesh that stays open do not count: they
@@ -213,7 +190,7 @@ def _are_on_edges(kinds: Ints, gaps: int, closed: bool) -> Flags:
     edge = kinds == int(kind_of.SHARP)
     if closed:
         edge |= kinds == int(kind_of.BOUNDARY)
-    return edge if gaps and not closed else edge | (kinds == int(kind_of.CORNER))
+    return edge if is_open and not closed else edge | (kinds == int(kind_of.CORNER))
 
 
 def _check_some(bare: Flags) -> None:

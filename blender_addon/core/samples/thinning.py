@@ -14,6 +14,8 @@ from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes
 from ..settings import OPTIONS, AboveLimit, SamplingMode, Settings
 from ..shape.shape import Shape
+from .prepare import Input
+from .sample_spacing import first_pass
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95
@@ -44,6 +46,20 @@ def thinned_rows(points: Floats, limit: MemoryLimit, error: MemoryLimitError) ->
     )
 
 
+def thinned(given: Input, limit: MemoryLimit, error: MemoryLimitError) -> Input:
+    """Return an input whose samples can be analysed within a limit; raise the error again where that is not allowed."""
+    shape = given.shape
+    if len(shape.triangles):
+        settings, sentence = fewer_samples(shape, given.settings, given.first.count, limit, error)
+        first = first_pass(shape, settings)
+        return replace(given, settings=settings, first=first, thinned=sentence)
+    rows, sentence = thinned_rows(shape.points, limit, error)
+    normals = None if shape.normals is None else shape.normals[rows]
+    of_caller = rows if shape.rows is None else shape.rows[rows]
+    shape = replace(shape, points=shape.points[rows], normals=normals, rows=of_caller)
+    return replace(given, shape=shape, thinned=sentence)
+
+
 def fewer_samples(
     shape: Shape, settings: Settings, first: int, limit: MemoryLimit, error: MemoryLimitError
 ) -> tuple[Settings, str]:
@@ -57,10 +73,6 @@ def fewer_samples(
         The number of samples that the first pass would have.
     limit, error
         As for `thinned_rows`.
-
-    Raises
-    ------
-    MemoryLimitError
     """
     most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
     sentence = (

@@ -89,7 +89,7 @@ class Walls(Places):
         """The share of the area behind which the axis is missing or torn."""
         return float(self.area[self._are_missed].sum() / self.area.sum()) if len(self.area) else 0.0
 
-    @property
+    @cached_property
     def are_missed(self) -> bool:
         return self.missed > _SOME
 

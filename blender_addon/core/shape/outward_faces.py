@@ -8,14 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Flags
 from ..errors import DegenerateInputError
 from ..machine import native
 from .repeated_faces import repeats_of_bodies
-from .shape import Shape
-
-# Values of `Shape.reading`; 0 as given.
-TURNED, REPEATED, WITHOUT_CORNERS, OF_SHEETS = 1, 2, 3, 4
+from .shape import OF_SHEETS, REPEATED, TURNED, WITHOUT_CORNERS, Shape
 
 
 def outward_shape(shape: Shape) -> Shape:
@@ -56,13 +52,12 @@ def _check_corners(shape: Shape) -> None:
         )
 
 
-def check_some_left(shape: Shape) -> None:
-    """Raise DegenerateInputError where every face counts for nothing, so none can decide what is inside."""
-    if are_left_out(shape).all():
-        raise DegenerateInputError(
-            f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
-            "no three corners; give them thickness (a Solidify modifier), or choose Inside From Tight Cocone"
-        )
+def none_left(shape: Shape) -> DegenerateInputError:
+    """Return the error for faces each of which counts for nothing, so that none can decide what is inside."""
+    return DegenerateInputError(
+        f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
+        "no three corners; give them thickness (a Solidify modifier), or choose Inside From Tight Cocone"
+    )
 
 
 def reading_counts(shape: Shape) -> dict[str, int]:
@@ -75,13 +70,6 @@ def reading_counts(shape: Shape) -> dict[str, int]:
         "without_corners": int(counts[WITHOUT_CORNERS]),
         "of_sheets": int(counts[OF_SHEETS]),
     }
-
-
-def are_left_out(shape: Shape) -> Flags:
-    """Return the triangles that count for nothing, (m,)."""
-    if shape.reading is None:
-        return np.zeros(len(shape.triangles), bool)
-    return shape.reading >= REPEATED
 
 
 def reading_warnings(shape: Shape) -> Iterator[str]:

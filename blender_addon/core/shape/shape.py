@@ -16,6 +16,8 @@ from ..small_matrices import dot
 from .nearness import same_place
 from .triangles import unit_normals
 
+# Values of `Shape.reading`; 0 as given.
+TURNED, REPEATED, WITHOUT_CORNERS, OF_SHEETS = 1, 2, 3, 4
 # The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
 # looked at, in roundings.
 _FOLDED, _OFF = -0.99, 4
@@ -70,6 +72,13 @@ class Shape:
     def has_vertices(self, count: int) -> bool:
         """Return whether the points may be `count` vertices of an object, as those of a wrap never are."""
         return len(self.points) == count and self.offset == 0.0
+
+    @cached_property
+    def left_out(self) -> Flags:
+        """(m,) the triangles that count for nothing."""
+        if self.reading is None:
+            return np.zeros(len(self.triangles), bool)
+        return self.reading >= REPEATED
 
     @cached_property
     def rounding(self) -> float:

@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import Ints
 from ..settings import Settings, SidesFrom
-from .outward_faces import are_left_out
 from .shape import Shape
-from .sharp_angle import sharp_angle_of
+
+# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,18 +34,12 @@ class SolidFaces:
     face: Ints
     flat: bool = False
 
-    @property
-    def arrays(self) -> tuple[NDArray[Any], ...]:
-        """The arrays that these faces keep in memory."""
-        return self.shape.points, self.shape.triangles, self.face
-
     def options(self, settings: Settings) -> tuple[float, bool]:
         """Return the sharp angle and whether the faces approximate a smooth surface."""
         return sharp_angle_of(self.shape, settings), settings.smooth and not self.flat
 
-    def of_module(self, module: Any, settings: Settings) -> Any:
-        """Return the `_medial.Faces`."""
-        sharp_angle, smooth = self.options(settings)
+    def of_module(self, module: Any, sharp_angle: float, smooth: bool) -> Any:
+        """Return the `_medial.Faces`, with `options`."""
         shape = self.shape
         return module.Faces(
             shape.points,
@@ -75,15 +70,16 @@ def solid_faces(
     return SolidFaces(shape, _face_of_vertex(shape) if face is None else face, flat)
 
 
-def triangles_of_places(shape: Shape, settings: Settings) -> int:
-    """Return how many triangles may give crisp places, for the forecast of memory; 0 if there are no such places."""
-    return len(shape.triangles) if settings.crisp and settings.crisp_is_possible else 0
+def sharp_angle_of(shape: Shape, settings: Settings) -> float:
+    """Return the angle in radians from which edges of the shape are sharp."""
+    wider = 2.0 if shape.shaded_smooth else _CLEARLY
+    return min(wider * settings.sharp_angle, math.pi)
 
 
 def _face_of_vertex(shape: Shape) -> Ints:
     """Return the first triangle at each vertex, (n,), or -1."""
     face = np.full(len(shape.points), -1, np.int32)
-    kept = np.flatnonzero(~are_left_out(shape)).astype(np.int32)
+    kept = np.flatnonzero(~shape.left_out).astype(np.int32)
     rows = np.repeat(kept, 3)
     face[shape.triangles[kept].ravel()[::-1]] = rows[::-1]  # the last assignment counts
     return face

@@ -22,7 +22,7 @@ from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..samples.analysed import AnalysedSamples
+from ..samples.analysed import Analysed
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
@@ -33,9 +33,8 @@ from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
 from .fill import Filled, filled
 from .forks import draw_forks
-from .inscribe import inscribe
 from .join_pieces import join_pieces, no_joins
-from .middle import lead_through_middle
+from .middle import inscribe, lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
 from .simplify import kept_points
@@ -213,7 +212,7 @@ def _net_of_curve(
 
 
 def _drawn(
-    loaded: LoadedNet, wanted: SkeletonSettings, samples: AnalysedSamples, tips: list[int] | None
+    loaded: LoadedNet, wanted: SkeletonSettings, samples: Analysed, tips: list[int] | None
 ) -> Longs:
     """Give the remaining branches of a net their ends and forks; returns the new owner of each sample."""
     net = loaded.net
@@ -226,7 +225,7 @@ def _drawn(
 
 
 def _curve(
-    samples: AnalysedSamples, settings: Settings, limb: float, progress: Progress
+    samples: Analysed, settings: Settings, limb: float, progress: Progress
 ) -> tuple[Any, Any]:
     """Return the level without sheets and without limbs shorter than a share of the diagonal, and its hierarchy."""
     hierarchy = hierarchy_of(samples, settings, progress.part(0.9))

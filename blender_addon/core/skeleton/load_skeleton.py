@@ -14,12 +14,7 @@ from .skeleton import Skeleton, skeleton_of
 
 
 def load_skeleton(path: str | os.PathLike) -> Skeleton:
-    """Read a skeleton back, exactly as it was written.
-
-    Raises
-    ------
-    ReadError
-    """
+    """Read a skeleton back, exactly as it was written."""
     try:
         found = json.loads(Path(path).read_text("utf-8"))
         points = np.array([node["position"] for node in found["nodes"]], np.float64)

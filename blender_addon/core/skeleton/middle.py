@@ -15,7 +15,6 @@ from ..curves.depth import Depth
 from ..curves.net import Net
 from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
 from ..small_matrices import dot
-from .inscribe import inscribe
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
 _MOVED = 0.5  # a point moves by at most this many radii at once, and so stays in the ball around it
@@ -23,6 +22,24 @@ _AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the
 _AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
 _HALVED = 10  # so often the range of a move is halved
 _ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides
+
+
+def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:
+    """Make every radius of a net the distance to the surface.
+
+    Parameters
+    ----------
+    net : Net
+    depth : Depth
+    plane : float, optional
+        The net is symmetric in X at this plane. Its radii remain so: they are those of balls that fit on both sides.
+    """
+    used = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
+    places = net.points[used]
+    net.radius[used] = depth(places)
+    if plane is not None:
+        places[:, 0] = 2.0 * plane - places[:, 0]
+        net.radius[used] = np.minimum(net.radius[used], depth(places))
 
 
 def lead_through_middle(net: Net, depth: Depth) -> None:

@@ -21,9 +21,8 @@ from ..samples.buried_samples import bounding_share
 from ..samples.sample_spacing import first_pass
 from ..settings import Between, Edges, Noise, SamplingMode, Settings, SidesFrom, ThicknessSettings
 from ..shape.nearness import same_place
-from ..shape.outward_faces import are_left_out
 from ..shape.shape import Shape
-from ..shape.sharp_angle import sharp_angle_of
+from ..shape.solid_faces import sharp_angle_of
 from ..shape.triangles import unit_normals
 from .bounded_lengths import MeasuredSurface
 from .close_walls import rounding_of
@@ -86,7 +85,7 @@ def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> b
     """
     plain = wanted.between is Between.WALL and wanted.noise is Noise.CLEAN
     by_faces = settings.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
-    if not (plain and by_faces and len(shape.triangles)) or are_left_out(shape).any():
+    if not (plain and by_faces and len(shape.triangles)) or shape.left_out.any():
         return False
     if shape.open_edges or not shape.volume > 0.0:
         return False

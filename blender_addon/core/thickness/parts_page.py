@@ -128,12 +128,7 @@ def verdict_of(rows: Sequence[PartRow], limit: float, unit: str, between: Betwee
 def export_page(
     rows: Sequence[PartRow], path: str | os.PathLike, verdict: str, between: Between
 ) -> Path:
-    """Write the page; an old one is replaced whole, or stays as it is where the system refuses.
-
-    Raises
-    ------
-    ExportError
-    """
+    """Write the page; an old one is replaced whole, or stays as it is where the system refuses."""
     heads = list(_HEADS)
     heads[1] = "Least gap" if between is Between.GAP else "Least wall"
     page = _PAGE.format(

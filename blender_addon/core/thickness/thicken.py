@@ -25,7 +25,7 @@ from ..samples.mesh_parts import check_no_sheet
 from ..settings import Edges, Moving, Settings, ThickenSettings, ThicknessSettings
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
-from ..shape.sharp_angle import sharp_angle_of
+from ..shape.solid_faces import sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 from .face_gaps import face_gaps

@@ -57,10 +57,6 @@ def measure_thickness(
     wanted : ThicknessSettings
     progress : Progress, optional
     limit : MemoryLimit
-
-    Raises
-    ------
-    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = replace(settings, side=wanted.side)
     start, progress, shape = time.perf_counter(), progress or Progress(), outward_shape(shape)
@@ -156,7 +152,10 @@ def _by_axis(
         seconds=begun.seconds,
         walls=walls,
         key=key_of(
-            "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
+            "thickness",
+            chosen.samples.kept.key,
+            astuple(settings),
+            astuple(replace(wanted, limit=0.0)),
         ),
     )
     found = _up_to_faces(found)

@@ -4,7 +4,7 @@
 import bpy
 
 from ...bridge.axis.read_axis import find_axis
-from ...bridge.nodes.wires import WIRES
+from ...bridge.mesh import stored
 from ...bridge.skeleton.curve_object import write_curve
 from ..base.plain_words import Needing, Telling
 from ..base.select_made import bring_into_view_layer, select_made
@@ -24,7 +24,7 @@ class OBJECT_OT_medial_axis_to_curve(Needing, Telling, bpy.types.Operator):
     @classmethod
     def find(cls, context):
         axis = find_axis(context.active_object)
-        return axis if axis is not None and axis.get(WIRES, 0) else None
+        return axis if axis is not None and axis.get(stored.WIRES, 0) else None
 
     def run(self, context):
         made = write_curve(self.find(context))

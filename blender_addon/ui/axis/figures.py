@@ -3,15 +3,12 @@
 
 import bpy
 
-from ...bridge import surface_object
 from ...bridge.axis import axis_object, report_object
+from ...bridge.mesh import stored
 from ...bridge.mesh.colours import colour_range
-from ...bridge.mesh.material import LIMIT, RADIUS_MAX, RADIUS_MIN
-from ...bridge.nodes.wires import LONE_POINTS
-from ...bridge.objects import output_object
 from ...bridge.objects.source_state import has_changed
 from ...bridge.thickness.heat_map import shown_heat
-from ...bridge.thickness.thickness_object import HISTOGRAM, scale_on
+from ...bridge.thickness.thickness_object import scale_on
 from ...core.axis.topology import betti_in_short
 from ...core.axis.verdict import Light, in_short
 from ..base import manual
@@ -36,12 +33,12 @@ def draw_result(context, layout, result):
     else:
         _draw_verdict(layout, result)
         _draw_pieces(layout, result)
-    if hidden := result.get(axis_object.HIDDEN, 0):
+    if hidden := result.get(stored.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
-    if crumbs := result.get(axis_object.CRUMBS, 0):
+    if crumbs := result.get(stored.CRUMBS, 0):
         text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
         draw_wrapped(context, layout, text, "INFO")
-    if lone := result.get(LONE_POINTS, 0):
+    if lone := result.get(stored.LONE_POINTS, 0):
         text = "1 lone point hidden" if lone == 1 else f"{lone:,} lone points hidden"
         draw_wrapped(context, layout, text, "INFO")
     if not _draw_legend(context, layout, result):
@@ -52,23 +49,25 @@ def draw_result(context, layout, result):
 def draw_sequence(context, layout, frame):
     """The radii of a frame of a sequence, whose colours are those of all its frames."""
     _draw_name(layout, frame)
-    draw_figures(layout, {"Radius": _range_text(context, frame[RADIUS_MIN], frame[RADIUS_MAX])})
+    draw_figures(
+        layout, {"Radius": _range_text(context, frame[stored.RADIUS_MIN], frame[stored.RADIUS_MAX])}
+    )
     _draw_legend(context, layout, frame)
 
 
 def draw_report(context, layout, report):
     """Draws how dense the samples are."""
     _draw_name(layout, report)
-    limit = report.get(LIMIT, 0.0)
-    share = 100 * report.get(report_object.SHARE, 0.0)
+    limit = report.get(stored.EPSILON_LIMIT, 0.0)
+    share = 100 * report.get(stored.EPSILON_SHARE, 0.0)
     draw_figures(
         layout,
         {
-            "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
+            "Epsilon": f"{report.get(stored.EPSILON_MEDIAN, 0.0):.2f} (median)",
             f"Above {limit:g}": f"{share:.1f} %",
         },
     )
-    for warning in report.get(output_object.WARNINGS, "").splitlines():
+    for warning in report.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
     _draw_legend(context, layout, report)
 
@@ -79,44 +78,44 @@ def draw_details(context, layout, result):
         layout,
         result,
         {
-            "Points": f"{result.get(output_object.POINTS, 0):,}",
-            "Duplicates": f"{result.get(output_object.DUPLICATES, 0):,}",
+            "Points": f"{result.get(stored.POINTS, 0):,}",
+            "Duplicates": f"{result.get(stored.DUPLICATES, 0):,}",
             "Facets": f"{len(result.data.polygons):,}",
             "Vertices": f"{len(result.data.vertices):,}",
-            "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
-            "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
-            "Not on Edges": f"{result.get(axis_object.REFUSED, 0):,}",
-            "Time": f"{result.get(output_object.SECONDS, 0.0):.2f} s",
+            "Unbounded": f"{result.get(stored.UNBOUNDED, 0):,}",
+            "Without Area": f"{result.get(stored.ZERO_AREA, 0):,}",
+            "Not on Edges": f"{result.get(stored.REFUSED, 0):,}",
+            "Time": f"{result.get(stored.SECONDS, 0.0):.2f} s",
         },
     )
     sentences = (
-        axis_object.TOPOLOGY,
-        output_object.SAMPLED,
-        output_object.DENSITY,
-        axis_object.INSIDE,
+        stored.TOPOLOGY,
+        stored.SAMPLED,
+        stored.DENSITY,
+        stored.INSIDE,
     )
-    for name in (*sentences, axis_object.MESH, axis_object.PLACES):
+    for name in (*sentences, stored.SOURCE_MESH, stored.PLACES):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")
-    for warning in result.get(output_object.WARNINGS, "").splitlines():
+    for warning in result.get(stored.WARNINGS, "").splitlines():
         draw_wrapped(context, layout, warning, "ERROR")
     draw_inward_faces(layout, result)
 
 
 def draw_report_details(context, layout, report):
     """All other figures of a report."""
-    worst = report.get(report_object.WORST) or [0.0]
+    worst = report.get(stored.EPSILON_WORST) or [0.0]
     _draw_table(
         layout,
         report,
         {
-            "Samples": f"{report.get(output_object.POINTS, 0):,}",
-            "95 % Below": f"{report.get(report_object.P95, 0.0):.2f}",
-            "And at Edges": f"{100 * report.get(report_object.SHARE_OF_ALL, 0.0):.1f} %",
+            "Samples": f"{report.get(stored.POINTS, 0):,}",
+            "95 % Below": f"{report.get(stored.EPSILON_P95, 0.0):.2f}",
+            "And at Edges": f"{100 * report.get(stored.EPSILON_SHARE_OF_ALL, 0.0):.1f} %",
             "Worst": f"{worst[0]:.2g}",
         },
     )
-    draw_wrapped(context, layout, report.get(output_object.SAMPLED, ""), "INFO")
+    draw_wrapped(context, layout, report.get(stored.SAMPLED, ""), "INFO")
 
 
 def draw_surface(context, layout, surface):
@@ -125,36 +124,34 @@ def draw_surface(context, layout, surface):
         layout,
         surface,
         {
-            "Points": f"{surface.get(output_object.POINTS, 0):,}",
-            "Duplicates": f"{surface.get(output_object.DUPLICATES, 0):,}",
-            "Off Surface": f"{surface.get(surface_object.OFF_SURFACE, 0):,}",
+            "Points": f"{surface.get(stored.POINTS, 0):,}",
+            "Duplicates": f"{surface.get(stored.DUPLICATES, 0):,}",
+            "Off Surface": f"{surface.get(stored.OFF_SURFACE, 0):,}",
             "Triangles": f"{len(surface.data.polygons):,}",
-            "Non-Manifold": f"{surface.get(surface_object.NONMANIFOLD_EDGES, 0):,} edges",
-            "": f"{surface.get(surface_object.NONMANIFOLD_VERTICES, 0):,} points",
-            "Cavities": f"{surface.get(surface_object.CAVITIES, 0):,}",
+            "Non-Manifold": f"{surface.get(stored.NONMANIFOLD_EDGES, 0):,} edges",
+            "": f"{surface.get(stored.NONMANIFOLD_VERTICES, 0):,} points",
+            "Cavities": f"{surface.get(stored.CAVITIES, 0):,}",
         },
     )
-    for warning in surface.get(output_object.WARNINGS, "").splitlines():
+    for warning in surface.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
 
 
 def _draw_verdict(layout, result):
     """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
-    name = result.get(axis_object.LIGHT)
+    name = result.get(stored.LIGHT)
     if name not in WHY:  # of an older version
         return
     row = layout.split(factor=0.88)  # in a row, half of it would be the question mark's
-    row.label(
-        text=say(in_short(result[axis_object.VERDICT])), icon_value=light(name), translate=False
-    )
+    row.label(text=say(in_short(result[stored.VERDICT])), icon_value=light(name), translate=False)
     if manual.has(WHY[name].partition("#")[0]):
         row.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
 def _draw_pieces(layout, result):
     """Draws how many pieces, loops and cavities there are, with a tick where the faces have as many."""
-    betti = result.get(axis_object.BETTI, (result.get(axis_object.PIECES, 0), 0, 0))
-    agrees = result.get(axis_object.TOPOLOGY, "").endswith(", as the solid")
+    betti = result.get(stored.BETTI, (result.get(stored.PIECES, 0), 0, 0))
+    agrees = result.get(stored.TOPOLOGY, "").endswith(", as the solid")
     icon = "CHECKMARK" if agrees else "MESH_DATA"
     words = ", ".join(map(say, betti_in_short(betti)))
     layout.label(text=words, icon=icon, translate=False)
@@ -162,7 +159,7 @@ def _draw_pieces(layout, result):
 
 def why_outdated(context, result):
     """Why the shown result no longer belongs to its source and settings, or an empty string."""
-    if axis_object.DRAFT in result:
+    if stored.DRAFT in result:
         return "A draft, of few samples"
     if has_changed(result, context.view_layer.depsgraph):
         return "The source has changed"
@@ -198,7 +195,9 @@ def draw_thickness(context, layout, carrier):
         return
     low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
     middle = limit if scale.limit > scale.low else ""
-    draw_thickness_legend(layout, scale, list(carrier[HISTOGRAM]), (low, middle, high))
+    draw_thickness_legend(
+        layout, scale, list(carrier[stored.THICKNESS_HISTOGRAM]), (low, middle, high)
+    )
 
 
 def _range_text(context, smallest, largest):

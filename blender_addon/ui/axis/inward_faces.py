@@ -3,7 +3,8 @@
 
 import bpy
 
-from ...bridge.axis.axis_object import TURNED, is_result
+from ...bridge.axis.axis_object import is_result
+from ...bridge.mesh import stored
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness.inward_faces import select_inward, turn_inward
 from ...core.errors import MedialAxisError
@@ -50,7 +51,7 @@ class OBJECT_OT_medial_axis_inward_faces(Needing, Telling, bpy.types.Operator):
 
 def draw_inward_faces(layout, result):
     """Two buttons below the sentence about faces that looked inward."""
-    if not result.get(TURNED, 0):
+    if not result.get(stored.TURNED, 0):
         return
     row = layout.row(align=True)
     select = row.operator(

@@ -6,7 +6,7 @@ from functools import partial
 import bpy
 
 from ...bridge.axis.axes_of_parts import remove_other_parts, write_result_of_part
-from ...bridge.axis.axis_object import DRAFT, check_writable, result_of, write_result
+from ...bridge.axis.axis_object import check_writable, result_of, write_result
 from ...bridge.axis.parts_objects import MOST
 from ...bridge.axis.report_object import (
     check_report_writable,
@@ -17,6 +17,7 @@ from ...bridge.axis.report_object import (
     write_report,
 )
 from ...bridge.axis.shown_axis import compute_shown
+from ...bridge.mesh import stored
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ...bridge.thickness.heat_map import show_axis
@@ -98,7 +99,7 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     def write_draft(self, thing, found, frame):
         made = self.write(thing, found, frame)
         if made is not None:
-            made[DRAFT] = True
+            made[stored.DRAFT] = True
         return made
 
     def write(self, thing, found, frame):

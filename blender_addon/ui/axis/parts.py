@@ -6,6 +6,7 @@ import bpy
 from ...bridge.axis.axis_object import is_result, result_of
 from ...bridge.axis.parts_objects import part_of_active_face, select_part, separate_parts
 from ...bridge.axis.structure_object import counts_on
+from ...bridge.mesh import stored
 from ...bridge.mesh.attributes import PART, has_attribute
 from ...bridge.objects.output_object import is_gone
 from ...core.settings import Form
@@ -99,7 +100,7 @@ class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         if _axis(context) is None:
-            is_clean = shown_result(context)["ma_form"] == Form.CLEAN.name
+            is_clean = shown_result(context)[stored.of_option("form")] == Form.CLEAN.name
             text = "The axis has no sheets" if is_clean else "Only clean forms have parts"
             layout.label(text=text, icon="INFO")
             return

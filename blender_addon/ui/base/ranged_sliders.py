@@ -9,7 +9,8 @@ import inspect
 
 import bpy
 
-from ...bridge.axis.slider_ranges import RANGES, detail_is_dead, range_on
+from ...bridge.axis.slider_ranges import detail_is_dead, range_on
+from ...bridge.mesh import stored
 from ...core.settings import OPTIONS
 from .tab import draw_setting
 from .translation import IN_CONTEXT
@@ -30,7 +31,7 @@ def with_shares(shown_result):
     """A decorator that gives a class of settings a property for each share; `shown_result` finds the result."""
 
     def decorate(cls):
-        added = {f"{name}_share": _share(name, shown_result) for name in RANGES}
+        added = {f"{name}_share": _share(name, shown_result) for name in stored.RANGES}
         cls.__annotations__ = inspect.get_annotations(cls) | added
         return cls
 
@@ -40,7 +41,7 @@ def with_shares(shown_result):
 def draw_slider(context, row, name, result):
     """Draw a slider: its share, its length where that has keys, or the option itself where it has no shares."""
     panel = context.scene.medial_axis
-    if name not in RANGES or _is_animated(context.scene, name):
+    if name not in stored.RANGES or _is_animated(context.scene, name):
         row.active = name != "detail" or not detail_is_dead(result)
         draw_setting(row, panel, name, slider=True)
         return

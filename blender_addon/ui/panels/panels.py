@@ -3,7 +3,7 @@
 
 import bpy
 
-from ...bridge.axis import axis_object
+from ...bridge.mesh import stored
 from ...core.machine import native
 from ...core.settings import Side
 from ..axis.auto_update import draw_auto_update
@@ -156,8 +156,8 @@ def _thresholds(result):
     if result is None:
         return {"theta": False, "rho": False}
     return {
-        "theta": result.get(axis_object.ONLY_RATIO, 0.0) > _BINDS,
-        "rho": result.get(axis_object.ONLY_ANGLE, 0.0) > _BINDS,
+        "theta": result.get(stored.ONLY_RATIO, 0.0) > _BINDS,
+        "rho": result.get(stored.ONLY_ANGLE, 0.0) > _BINDS,
     }
 
 

@@ -9,9 +9,8 @@ import time
 
 import bpy
 
-from ...bridge.axis.axis_object import ANALYSIS, BETTI
-from ...bridge.nodes.wires import WIRES
-from ...bridge.objects.output_object import POINTS, is_gone
+from ...bridge.mesh import stored
+from ...bridge.objects.output_object import is_gone
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task
 from ..base import current_job
@@ -41,10 +40,10 @@ def needs_thread(result, levels_stay):
     """
     if bpy.app.background or not bpy.context.window_manager.windows:
         return False
-    loops = sum(result.get(BETTI, (0,)))
+    loops = sum(result.get(stored.BETTI, (0,)))
     most = SAMPLES if levels_stay else THRESHOLD_SAMPLES
-    many = max(result.get(WIRES, 0), 10 * loops) > WIRES_AND_LOOPS
-    return many or result.get(POINTS, 0) > most
+    many = max(result.get(stored.WIRES, 0), 10 * loops) > WIRES_AND_LOOPS
+    return many or result.get(stored.POINTS, 0) > most
 
 
 def request(result, settings, work, write):
@@ -105,7 +104,7 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
         result = bpy.data.objects.get(self._name)
         if is_gone(result):
             return {"CANCELLED"}
-        self._key, _running = result[ANALYSIS], True
+        self._key, _running = result[stored.ANALYSIS], True
         return self.watch(context, [Task(self._name, _work)], "medial axis")
 
     def meanwhile(self):
@@ -128,7 +127,7 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
             if outcome.error is not None:
                 raise outcome.error
             result = bpy.data.objects.get(self._name)
-            if is_gone(result) or result.get(ANALYSIS) != self._key:
+            if is_gone(result) or result.get(stored.ANALYSIS) != self._key:
                 return ""
             _applied.add((self._name, self._settings))
             return _write(result, self._settings, outcome.value)

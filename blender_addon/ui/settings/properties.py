@@ -11,7 +11,6 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ...bridge.axis.axis_object import (
-    ANALYSIS,
     asked_of,
     asked_on,
     box_on,
@@ -22,10 +21,10 @@ from ...bridge.axis.axis_object import (
 )
 from ...bridge.axis.report_object import has_report, report_of
 from ...bridge.axis.shown_axis import shown_axis
+from ...bridge.mesh import stored
 from ...bridge.nodes.wires import wires_group
-from ...bridge.objects.output_object import WARNINGS, is_gone, is_torn, source_of
+from ...bridge.objects.output_object import is_gone, is_torn, source_of
 from ...bridge.objects.read_object import SOURCE_TYPES
-from ...bridge.skeleton.sequence_objects import FRAME
 from ...bridge.surface_object import is_surface, surface_of
 from ...bridge.thickness.heat_map import show_axis, shown_heat
 from ...core.axis.compute import refilter, refiltered_topology
@@ -121,18 +120,13 @@ def _is_of_points():
 
 def _is_of_noisy_faces(properties):
     """Whether noise was found in the faces of the active result, or the option was changed; few faces have any."""
-    said = (bpy.context.object and bpy.context.object.get(WARNINGS, "")) or ""
+    said = (bpy.context.object and bpy.context.object.get(stored.WARNINGS, "")) or ""
     is_told = all(word in said for word in ("noise", "steps", "faces"))
     return is_told or properties.prepare != Prepare.AUTOMATIC.name
 
 
 def settings_from(properties, kind=Settings):
-    """Properties of an operator or of a panel as settings of a kind; an option that has no property has its default.
-
-    Raises
-    ------
-    InvalidInputError
-    """
+    """Properties of an operator or of a panel as settings of a kind; an option that has no property has its default."""
     return kind(
         **{
             name: _value(option, getattr(properties, name))
@@ -189,7 +183,7 @@ def shown_report(context):
 def shown_frame(context):
     """The active object, where it is a frame of a sequence."""
     active = context.object
-    return active if active is not None and FRAME in active else None
+    return active if active is not None and stored.SEQUENCE_FRAME in active else None
 
 
 def shown_thing(context):
@@ -273,7 +267,7 @@ def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = _wanted(kept, panel)
     look = look_from(panel)
-    work = partial(_refiltered, result[ANALYSIS], box_on(result), wanted, look)
+    work = partial(_refiltered, result[stored.ANALYSIS], box_on(result), wanted, look)
     show = partial(_show_refiltered, look)
     if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
         _watch_undo()
@@ -296,7 +290,7 @@ def _show_refiltered(look, result, wanted, found, between_steps=False) -> str:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
     if shown is None:
         return "No facet passes these conditions; the medial axis was left as it was"
-    topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
+    topology = refiltered_topology(result[stored.ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
     update_result(result, shown, settings, topology, look, between_steps)
     if shown_heat(result) is not None:

@@ -7,6 +7,7 @@ from functools import partial
 import bpy
 
 from ...bridge.axis.axis_object import shown_curve
+from ...bridge.mesh import stored
 from ...bridge.objects.read_object import read_object
 from ...bridge.objects.source_state import same_state
 from ...bridge.skeleton.armature_object import (
@@ -204,7 +205,7 @@ class OBJECT_OT_medial_axis_armature(SkeletonOperator, ArmatureProperties, bpy.t
     def _bind(self, thing, made, rig):
         if self.bind == "AUTOMATIC" and not bind_by_heat(thing, made, rig):
             self.report({"WARNING"}, say(HEAT_FAILED))
-            made["ma_warnings"] = "\n".join([*rig.warnings, HEAT_FAILED])
+            made[stored.WARNINGS] = "\n".join([*rig.warnings, HEAT_FAILED])
             bind_by_axis(thing, made, rig)
         elif self.bind == "AXIS":
             bind_by_axis(thing, made, rig)

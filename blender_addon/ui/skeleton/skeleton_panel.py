@@ -3,9 +3,9 @@
 
 import bpy
 
-from ...bridge.objects import output_object
+from ...bridge.mesh import stored
 from ...bridge.skeleton import skeleton_object
-from ...bridge.skeleton.armature_object import BONES, armature_of, is_armature
+from ...bridge.skeleton.armature_object import armature_of, is_armature
 from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
 from ..base.plain_words import draw_told, warned
 from ..base.tab import Closed, draw_setting, draws_buttons, settings_column
@@ -47,7 +47,7 @@ def _shown(context):
 
 
 def _draw_figures(context, layout, thing):
-    figures = {"Bones": thing.get(BONES, 0)}
+    figures = {"Bones": thing.get(stored.BONES, 0)}
     if is_skeleton(thing):
         names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
         figures = {
@@ -55,5 +55,5 @@ def _draw_figures(context, layout, thing):
         }
     layout.label(text=thing.name, icon="DOT", translate=False)
     draw_figures(layout, {label: f"{number:,}" for label, number in figures.items()})
-    for warning in thing.get(output_object.WARNINGS, "").splitlines():
+    for warning in thing.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)

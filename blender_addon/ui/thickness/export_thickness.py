@@ -4,6 +4,7 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
+from ...bridge.mesh import stored
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness import thickness_object as of
 from ...core.errors import InvalidInputError, MedialAxisError
@@ -92,14 +93,14 @@ def _row(context, thing, unit):
 
 def _kept(context, carrier):
     """The measurement that a carrier shows, and its thin parts."""
-    found = kept_measurement(carrier[of.KEY])
+    found = kept_measurement(carrier[stored.THICKNESS_KEY])
     if found is None:
         raise InvalidInputError(
             f"Expected the measurement of '{carrier.name}' in memory, found it dropped; "
             "press Measure Thickness again"
         )
     least = context.scene.medial_axis_thickness.minimum_patch
-    return found, find_thin_parts(found, carrier[of.LIMIT], least)
+    return found, find_thin_parts(found, carrier[stored.THICKNESS_LIMIT], least)
 
 
 def _measured(context):

@@ -6,12 +6,11 @@ from functools import partial
 import bpy
 from mathutils import Vector
 
+from ...bridge.mesh import stored
 from ...bridge.mesh.attributes import has_attribute
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness.heat_map import show_thickness
 from ...bridge.thickness.thickness_object import (
-    CURRENT,
-    LEAST,
     THIN,
     check_thickness_writable,
     is_copy,
@@ -99,7 +98,7 @@ class OBJECT_OT_medial_axis_thin_place(Needing, bpy.types.Operator):
     @classmethod
     def find(cls, context):
         carrier = shown_thickness(context)
-        return carrier if carrier is not None and LEAST in carrier else None
+        return carrier if carrier is not None and stored.THICKNESS_PLACE in carrier else None
 
     def execute(self, context):
         carrier = shown_thickness(context)
@@ -129,9 +128,11 @@ class OBJECT_OT_medial_axis_thin_place(Needing, bpy.types.Operator):
         if not count:
             return None
         step = 1 if self.which == "NEXT" else -1
-        current = carrier[CURRENT]
-        carrier[CURRENT] = (current + step) % count if current >= 0 or step > 0 else count - 1
-        place, area, minimum = patch_at(carrier, carrier[CURRENT])
+        current = carrier[stored.THICKNESS_CURRENT]
+        carrier[stored.THICKNESS_CURRENT] = (
+            (current + step) % count if current >= 0 or step > 0 else count - 1
+        )
+        place, area, minimum = patch_at(carrier, carrier[stored.THICKNESS_CURRENT])
         return place, max(area**0.5, 4 * minimum)
 
 

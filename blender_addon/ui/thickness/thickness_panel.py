@@ -3,9 +3,8 @@
 
 import bpy
 
-from ...bridge.objects.output_object import WARNINGS
+from ...bridge.mesh import stored
 from ...bridge.objects.source_state import has_changed
-from ...bridge.thickness import thickness_object as of
 from ...bridge.thickness.thin_selection import patch_at, patches_of
 from ...core.axis.verdict import Light
 from ...core.samples.density import share_text
@@ -71,15 +70,15 @@ def _draw_found(context, layout, carrier):
     if has_changed(carrier, context.view_layer.depsgraph):
         draw_wrapped(context, layout, "The source has changed", icon_value=light(Light.LOOK.name))
     column = layout.column(align=True)
-    least = carrier[of.MINIMUM]
-    if of.LEAST in carrier and least < float("inf"):
+    least = carrier[stored.THICKNESS_MINIMUM]
+    if stored.THICKNESS_PLACE in carrier and least < float("inf"):
         _draw_place(column, f"Minimum: {length_text(context, least)}", "MINIMUM", "ZOOM_SELECTED")
-    if carrier[of.LIMIT] > 0.0:
-        share = share_text(carrier[of.SHARE])
-        area = _area(context, carrier[of.AREA])
+    if carrier[stored.THICKNESS_LIMIT] > 0.0:
+        share = share_text(carrier[stored.THICKNESS_SHARE])
+        area = _area(context, carrier[stored.THICKNESS_AREA])
         column.label(text=say(f"Thin: {area} ({share})"), icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
-        if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
+        if carrier[stored.THICKNESS_AREA] > 0.0 and not carrier[stored.THICKNESS_GAP]:
             _draw_thicken(context, layout)
     if shown_result(context) is None:  # else the panel of the result has both
         draw_colours(context, layout)
@@ -87,7 +86,7 @@ def _draw_found(context, layout, carrier):
         legend.active = shows_colours(context.space_data)
         draw_thickness(context, legend, carrier)
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
-    for warning in carrier.get(WARNINGS, "").splitlines():
+    for warning in carrier.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
 
 
@@ -106,11 +105,11 @@ def _draw_thicken(context, layout):
 
 
 def _draw_patches(context, column, carrier):
-    count, current = patches_of(carrier), carrier[of.CURRENT]
+    count, current = patches_of(carrier), carrier[stored.THICKNESS_CURRENT]
     if not count:
         column.label(text="Nothing is too thin", icon="CHECKMARK")
         return
-    total = carrier[of.PATCHES]
+    total = carrier[stored.THICKNESS_PATCHES]
     text = "1 patch" if total == 1 else f"{total:,} patches"
     if current >= 0:
         _, _, minimum = patch_at(carrier, current)

@@ -3,8 +3,9 @@
 
 import bpy
 
+from ...bridge.mesh import stored
 from ...bridge.objects.output_object import is_gone, source_of
-from ...bridge.thickness.thickness_object import KEY, carrier_of, is_copy, show_limit
+from ...bridge.thickness.thickness_object import carrier_of, is_copy, show_limit
 from ...core.errors import MedialAxisError
 from ...core.settings import THICKNESS_OPTIONS
 from ...core.thickness.thickness import kept_measurement
@@ -24,7 +25,7 @@ def _apply_limit(panel, context):
     carrier = shown_thickness(context)
     if carrier is None or current_job.job() is not None:
         return
-    found = kept_measurement(carrier[KEY])
+    found = kept_measurement(carrier[stored.THICKNESS_KEY])
     if found is None:
         panel.note = "Press Measure Thickness to apply this: the measurement is no longer in memory"
         return

@@ -13,6 +13,13 @@ namespace medial {
 // if more than 5 % of them disagree with it.
 enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none, poles };
 
+// Returns what Automatic takes before any poles are labelled; `bounded` says that the faces bound a
+// solid.
+constexpr SidesFrom automatic_sides(bool bounded, bool has_normals) {
+  if (bounded) return SidesFrom::surface;
+  return has_normals ? SidesFrom::normals : SidesFrom::tight_cocone;
+}
+
 // The rule says which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
 enum class Rule : int32_t { either = 0, both = 1 };
 

@@ -1047,7 +1047,7 @@ def scene_unsolidify():
     yield from pressed(DIVIDE, lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
     look("5-divided-and-thicker")
     thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness.thickness_object")
-    assert len(thing.data.polygons) > 300 and of.carrier_of(thing)[of.SHARE] < 0.02
+    assert len(thing.data.polygons) > 300 and of.carrier_of(thing)["ma_thickness_share"] < 0.02
     yield from key("ctrl+z")
     yield from until(lambda: not bpy.data.objects["Wedge"].modifiers)
     assert len(bpy.data.objects["Wedge"].data.polygons) == 6

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The amount of the next pass: smaller spacings where the density, the walls or doubts of the topology want them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..arrays import Floats
+from ..shape.nearness import near, nearest
+from ..shape.solid_faces import sharp_angle_of
+from .analysed import Analysed
+from .decide import Plan
+from .doubts import Topology
+from .sample_spacing import Amount
+
+# The spacing at a doubt is this share of its gap, but not more and not less than these shares of the spacing there.
+_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
+# Where a Voronoi edge passes the faces in a gap below this share of the way to its samples, it may touch a bulge.
+_WIDE = 0.2
+# Walls that are missed on more than this share of the area are missed as a whole.
+_AS_A_WHOLE = 0.2
+# Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid;
+# the least angle of the option is one degree.
+_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)
+
+
+def next_amount(plan: Plan, samples: Analysed, budget: int) -> Amount:
+    """Return the amount of the next pass: the spacings that the density of this one requires.
+
+    Where walls are so close that the axis between them is missing, the feature size means nothing. There the walls
+    determine the spacing.
+    """
+    density, walls = samples.density, samples.walls_to_show
+    least = np.where(density.at_edge, density.finest, plan.effort.elsewhere * samples.spacing)
+    spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
+    if density.paired is not None:
+        spacings[density.paired] = samples.spacing
+    sites = density.points
+    if walls is not None and walls.are_missed:
+        between, wanted = walls.wanted(plan.effort.walls * samples.spacing)
+        # Sites next to walls that require no finer spacing, as on a sharp edge, would keep the walls coarse.
+        left = (spacings < samples.spacing) | ~near(sites, between, samples.spacing)
+        sites = np.concatenate((sites[left], between))
+        spacings = np.concatenate((spacings[left], np.minimum(wanted, samples.spacing)))
+    return Amount(budget, samples.spacing, sizing=(sites, spacings))
+
+
+def finer_in_pairs(
+    plan: Plan, samples: Analysed, topology: Topology, number: int, budget: int
+) -> Amount:
+    """Return the amount of the pass after a `number` of passes: spacings as they are, or smaller ones at doubts.
+
+    The first time they follow the density and the walls, as without pairs, where walls are missed or no doubt says
+    where. Elsewhere that makes more loops than it closes.
+    """
+    assert samples.apart is not None
+    where = bool(len(topology.gaps) and topology.betti != samples.by_faces)
+    sites, spacings = samples.points, samples.apart
+    if number == 1 and (samples.walls_are_close or not where):
+        wanted = next_amount(plan, samples, budget)
+        assert wanted.sizing is not None
+        sites, spacings = wanted.sizing
+    if where and not (number == 1 and _are_missed_as_a_whole(samples)):
+        places, apart = _wanted(samples, topology)
+        sites = np.concatenate((sites, places))
+        spacings = np.concatenate((spacings, apart))
+    return Amount(budget, plan.first.spacing, sizing=(sites, spacings), pairs=True)
+
+
+def _are_missed_as_a_whole(samples: Analysed) -> bool:
+    """Whether so many walls are missed that doubts are everywhere and say nothing."""
+    return samples.walls is not None and samples.walls.missed > _AS_A_WHOLE
+
+
+def _wanted(samples: Analysed, topology: Topology) -> tuple[Floats, Floats]:
+    """(k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
+    assert samples.apart is not None
+    places, gaps = topology.places, topology.gaps
+    rows = nearest(places, samples.points)
+    own, away = samples.apart[rows], np.linalg.norm(places - samples.points[rows], axis=1)
+    wide = gaps > _WIDE * away
+    if not wide.any():
+        wide[:] = True
+    wanted = np.clip(_OF_GAP * gaps, _FINEST * own, _COARSEST * own)
+    return places[wide], wanted[wide]
+
+
+def sharp_on_flat(plan: Plan, samples: Analysed) -> float:
+    """Return from which angle edges are sharp if samples belong on the flat faces, and 0 on the smooth surface.
+
+    They belong there where the smooth surface is flat everywhere, or leaves close walls. Edges of the faces that it
+    leaves are then edges of the solid: samples that miss them tear the sheet between close walls.
+    """
+    walls = samples.walls
+    if walls is None or not (walls.are_bulging or walls.are_flat):
+        return 0.0
+    shape = plan.given.shape
+    bent = shape.smooth_bends(plan.given.sharp)[walls.faces[walls.bulges]]
+    least = max(float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, _LEAST_SHARP)
+    settings = plan.given.settings
+    settings = replace(settings, sharp_angle=min(settings.sharp_angle, least))
+    return sharp_angle_of(shape, settings)

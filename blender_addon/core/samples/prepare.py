@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Facts about a shape before samples of it are taken: how its faces are read, and which of them count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..settings import Settings, SidesFrom
+from ..shape.outward_faces import outward_shape
+from ..shape.shape import Shape
+from ..shape.solid_faces import sharp_angle_of
+from ..shape.wrapped_faces import without_wrap, wrap_reason, wrapped_shape
+from .mesh_parts import without_sheets
+from .sample_spacing import Amount, first_pass
+from .scan import Scan, prepared
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """A shape to analyse, how to analyse it, and what was done to it.
+
+    Parameters
+    ----------
+    given : Shape
+        With faces that look outward; before sheets were left out, or before it was wrapped.
+    read : Shape
+        Without sheets, or wrapped; before points were moved or left out.
+    shape : Shape
+        The one that is analysed.
+    settings : Settings
+        `side` is not AUTOMATIC, and a wrap is a closed surface.
+    sharp : float
+        The angle from which edges are sharp.
+    first : Amount
+        That of a first pass over the faces; nothing where there are none.
+    scan : Scan or None
+        What was measured of points without faces, and done to them; None where there are faces.
+    wrap : str
+        The reason for what is inside of a wrap; or empty.
+    thinned : str
+        A sentence that explains why there are fewer samples than the settings ask for; or empty.
+    """
+
+    given: Shape
+    read: Shape
+    shape: Shape
+    settings: Settings
+    sharp: float
+    first: Amount
+    scan: Scan | None = None
+    wrap: str = ""
+    thinned: str = ""
+
+
+def prepare(shape: Shape, settings: Settings, progress: Any) -> Input:
+    """Read a shape: wrap it, turn its faces outward and leave out sheets, or smooth points without faces.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+        `side` is not AUTOMATIC.
+    progress : _medial.Progress
+    """
+    given, read, shape, settings, found = _read(shape, settings, progress)
+    sharp, first = sharp_angle_of(shape, settings), Amount(0, 0.0)
+    if len(shape.triangles):
+        first = first_pass(shape, settings)
+    return Input(given, read, shape, settings, sharp, first, **found)
+
+
+def _read(
+    shape: Shape, settings: Settings, progress: Any
+) -> tuple[Shape, Shape, Shape, Settings, dict[str, Any]]:
+    """Return `Input.given`, `read`, `shape` and `settings`, and what else is known."""
+    if settings.sides is SidesFrom.WRAP:
+        wrap = wrapped_shape(shape, settings, progress)
+        return shape, wrap, wrap, without_wrap(settings), {"wrap": wrap_reason(wrap, settings)}
+    if not len(shape.triangles):
+        smooth, scan = prepared(shape, settings, progress)
+        return shape, shape, smooth, settings, {"scan": scan}
+    given = outward_shape(shape)
+    read = without_sheets(given, settings) if given.open_edges else given
+    return given, read, read, settings, {}
