@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from support import distance, meshes, reference
+from support.messy import some_flipped
 
 pytestmark = pytest.mark.oracle
 
@@ -15,13 +16,6 @@ pytestmark = pytest.mark.oracle
 def without_triangles(mesh, share, seed=0):
     keep = np.random.default_rng(seed).random(len(mesh[1])) >= share
     return mesh[0], np.ascontiguousarray(mesh[1][keep])
-
-
-def with_flips(mesh, share, seed=0):
-    triangles = mesh[1].copy()
-    rows = np.random.default_rng(seed).random(len(triangles)) < share
-    triangles[rows] = triangles[rows][:, ::-1]
-    return mesh[0], triangles
 
 
 def squashed(mesh, *sizes):
@@ -83,8 +77,8 @@ CLOSED = {
     "loose points": with_loose_points(noisy(meshes.icosphere(2))),
 }
 OPEN = {
-    "flipped faces": with_flips(noisy(meshes.icosphere(3)), 0.2),
-    "one flipped face": with_flips(noisy(meshes.torus()), 0.001, 3),
+    "flipped faces": some_flipped(noisy(meshes.icosphere(3)), 0.2),
+    "one flipped face": some_flipped(noisy(meshes.torus()), 0.001, 3),
     "missing faces": without_triangles(noisy(meshes.icosphere(3)), 0.03),
     "half missing": without_triangles(noisy(meshes.torus()), 0.5),
     "bowl": (
