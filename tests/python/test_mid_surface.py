@@ -431,6 +431,14 @@ def test_the_middle_of_a_pipe_is_round(around, low, high, wall, length):
     assert 0.95 < found.share < 1.05 and np.ptp(found.vertices[:, 2]) > 0.95 * length
 
 
+@pytest.mark.parametrize("around", [48, 64])
+def test_a_pipe_is_as_thick_at_its_ends_as_between_them(around):
+    """Facets that reach from the wall to an edge of its end read 0.42 to 1.16 of the wall there."""
+    found = sheets_of(pipe(around, 1.0, 1.0, 0.05, 1.0), Settings(samples=2000))
+    for thickness in (found.thickness, found.of_vertices):
+        np.testing.assert_allclose(thickness, 0.05, rtol=0.003)
+
+
 def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():
     """They were four times as many, as close as the whole axis needs, and the sheet took 20 s."""
     found = sheets_of(pipe(24, 5.0, 5.0, 0.8, 60.0), Settings())
