@@ -291,7 +291,7 @@ class Judge:
 
 @dataclass
 class Verdict:
-    """Of one trial: judged places, those that are wrong, the least and largest share of the truth, what was said."""
+    """The judged places of one trial, those that are wrong, the least and largest share of the truth, what was said."""
 
     judged: int
     wrong: int

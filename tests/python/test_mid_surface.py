@@ -22,7 +22,7 @@ from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.shape import Shape
 from support import distance, mid_surfaces, reference, topology
 from support.meshes import write_off
-from support.thick_meshes import block, lathe
+from support.thick_meshes import block, lathe, pipe
 from support.thin_solids import turned, union
 
 
@@ -401,18 +401,6 @@ def star(tips, thickness):
         (i, j, j + up),
         (i, j + up, i + up),
     )
-    return points, np.concatenate([np.column_stack(each) for each in faces])
-
-
-def pipe(around, low, high, wall, length):
-    """A pipe with flat ends, whose outer radius goes from `low` to `high`."""
-    angles = 2 * np.pi * np.arange(around) / around
-    circle = np.column_stack((np.cos(angles), np.sin(angles), 0 * angles))
-    rims = ((low, 0), (high, length), (high - wall, length), (low - wall, 0))
-    points = np.concatenate([circle * (r, r, 0) + (0, 0, z) for r, z in rims])
-    i, j = np.arange(around), np.roll(np.arange(around), -1)
-    pairs = [(k * around, (k + 1) % 4 * around) for k in range(4)]
-    faces = [t for a, b in pairs for t in ((a + i, a + j, b + j), (a + i, b + j, b + i))]
     return points, np.concatenate([np.column_stack(each) for each in faces])
 
 
