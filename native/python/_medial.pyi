@@ -468,6 +468,21 @@ class Hierarchy:
     @property
     def timings(self) -> dict[str, float]:
         """Seconds of each stage, in order."""
+    def within_faces(
+        self, centres: NDArray[np.float64], radii: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """(n,) the radii of balls, each no larger than leaves the faces by as much as their smooth surface bulges over
+        the flat one; without faces the given ones. Balls between samples leave what is thinner than these are apart.
+
+        Parameters
+        ----------
+        centres : (n, 3) float64
+        radii : (n,) float64
+
+        Raises
+        ------
+        InvalidInputError
+        """
     def even(
         self,
         *,

@@ -12,6 +12,27 @@ namespace {
 
 py::tuple betti_tuple(const Betti& b) { return py::make_tuple(b[0], b[1], b[2]); }
 
+py::array radii_within_faces(const Hierarchy& h, const py::object& centres,
+                             const py::array_t<double, py::array::c_style>& radii) {
+  const Points rows(centres, "centres");
+  const auto places = rows.span();
+  const Frame& frame = h.parts().frame;
+  const auto& samples = h.parts().on_faces;
+  std::vector<double> found(radii.data(), radii.data() + radii.size());
+  if (found.size() != places.size()) {
+    throw InvalidInputError("Expected a radius for each centre, found " +
+                            std::to_string(found.size()) + "; pass as many of both");
+  }
+  {
+    const py::gil_scoped_release release;
+    parallel_for(samples ? std::ssize(found) : 0, {h.parts().threads}, [&](int64_t i) {
+      const double radius = frame.inward(found[i]);
+      found[i] = frame.outward(samples->within_faces(frame.inward(places[i]), radius));
+    });
+  }
+  return array_of<double>(std::move(found));
+}
+
 // Makes a property that is a view of an array of the hierarchy.
 template <typename Scalar, typename Part>
 auto part_property(const Part& part) {
@@ -236,6 +257,8 @@ void bind_hierarchy(py::module_& m) {
       .def_property_readonly(
           "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
           docs::Hierarchy_timings)
+      .def("within_faces", &radii_within_faces, docs::Hierarchy_within_faces, py::arg("centres"),
+           py::arg("radii"))
       .def(
           "even",
           [](const Hierarchy& h, double spacings, double limb, bool round_limbs, bool crisp,

@@ -22,7 +22,7 @@ from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.shape import Shape
 from support import distance, mid_surfaces, reference, topology
 from support.meshes import write_off
-from support.thick_meshes import block, lathe
+from support.thick_meshes import block, lathe, pipe
 from support.thin_solids import turned, union
 
 
@@ -404,18 +404,6 @@ def star(tips, thickness):
     return points, np.concatenate([np.column_stack(each) for each in faces])
 
 
-def pipe(around, low, high, wall, length):
-    """A pipe with flat ends, whose outer radius goes from `low` to `high`."""
-    angles = 2 * np.pi * np.arange(around) / around
-    circle = np.column_stack((np.cos(angles), np.sin(angles), 0 * angles))
-    rims = ((low, 0), (high, length), (high - wall, length), (low - wall, 0))
-    points = np.concatenate([circle * (r, r, 0) + (0, 0, z) for r, z in rims])
-    i, j = np.arange(around), np.roll(np.arange(around), -1)
-    pairs = [(k * around, (k + 1) % 4 * around) for k in range(4)]
-    faces = [t for a, b in pairs for t in ((a + i, a + j, b + j), (a + i, b + j, b + i))]
-    return points, np.concatenate([np.column_stack(each) for each in faces])
-
-
 @pytest.mark.parametrize(
     "around, low, high, wall, length",
     [(64, 1.0, 1.0, 0.05, 0.4), (16, 1.0, 1.0, 0.1, 1.5), (24, 0.6, 1.0, 0.1, 1.0)],
@@ -429,6 +417,14 @@ def test_the_middle_of_a_pipe_is_round(around, low, high, wall, length):
     across = wall * length / slant
     assert np.average(found.thickness) == pytest.approx(across, rel=0.03)
     assert 0.95 < found.share < 1.05 and np.ptp(found.vertices[:, 2]) > 0.95 * length
+
+
+@pytest.mark.parametrize("around", [48, 64])
+def test_a_pipe_is_as_thick_at_its_ends_as_between_them(around):
+    """Facets that reach from the wall to an edge of its end read 0.42 to 1.16 of the wall there."""
+    found = sheets_of(pipe(around, 1.0, 1.0, 0.05, 1.0), Settings(samples=2000))
+    for thickness in (found.thickness, found.of_vertices):
+        np.testing.assert_allclose(thickness, 0.05, rtol=0.003)
 
 
 def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():

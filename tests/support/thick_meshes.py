@@ -56,6 +56,18 @@ def lathe(profile: list[tuple[float, float]], around: int = 96) -> Mesh:
     return vertices, np.vstack(triangles).astype(np.int32)
 
 
+def pipe(around: int, low: float, high: float, wall: float, length: float) -> Mesh:
+    """A pipe with flat ends, whose outer radius goes from `low` to `high`."""
+    angles = 2 * np.pi * np.arange(around) / around
+    circle = np.column_stack((np.cos(angles), np.sin(angles), 0 * angles))
+    rims = ((low, 0), (high, length), (high - wall, length), (low - wall, 0))
+    points = np.concatenate([circle * (r, r, 0) + (0, 0, z) for r, z in rims])
+    i, j = np.arange(around), np.roll(np.arange(around), -1)
+    pairs = [(k * around, (k + 1) % 4 * around) for k in range(4)]
+    faces = [t for a, b in pairs for t in ((a + i, a + j, b + j), (a + i, b + j, b + i))]
+    return points, np.concatenate([np.column_stack(each) for each in faces])
+
+
 def shrinking_ball(points: np.ndarray, normals: np.ndarray, surface: np.ndarray) -> tuple:
     """Diameters of the largest balls that are tangent at points from inside and contain nothing of a dense cloud of the
     surface, and (n,) which of it each touches."""

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-Mesh = tuple[np.ndarray, np.ndarray]
+from .meshes import Mesh
+from .thick_meshes import lathe, pipe
+
 _HALVINGS, _TOUCHED = 44, 1e-6
 
 
@@ -17,24 +19,8 @@ def turned_part(rng: np.random.Generator, finer: int = 1) -> Mesh:
     """A turned part of 12 to 64 sides, or so many times as many, with two to five rings of random radii."""
     around, rings = int(rng.integers(12, 65)), int(rng.integers(2, 6))
     radii, heights = rng.uniform(0.3, 1.0, rings), np.cumsum(rng.uniform(0.15, 0.7, rings))
-    around *= finer
-    angle = 2 * np.pi * np.arange(around) / around
-    circle = np.column_stack((np.cos(angle), np.sin(angle)))
-    points = [
-        np.column_stack((r * circle, np.full(around, h)))
-        for r, h in zip(radii, heights, strict=True)
-    ]
-    poles = [(0.0, 0.0, heights[0]), (0.0, 0.0, heights[-1])]
-    points = np.concatenate((*points, poles))
-    low, high = around * rings, around * rings + 1
-    triangles = []
-    for i in range(around):
-        j = (i + 1) % around
-        triangles += [(low, j, i), (high, around * (rings - 1) + i, around * (rings - 1) + j)]
-        for ring in range(rings - 1):
-            a, b = around * ring + i, around * ring + j
-            triangles += [(a, b, b + around), (a, b + around, a + around)]
-    return points, np.array(triangles, np.int32)
+    outline = [(0.0, heights[0]), *zip(radii, heights, strict=True), (0.0, heights[-1])]
+    return lathe(outline, around * finer)
 
 
 def slanted_plate(rng: np.random.Generator) -> tuple[Mesh, float]:
@@ -53,24 +39,9 @@ def slanted_plate(rng: np.random.Generator) -> tuple[Mesh, float]:
 
 def tube(rng: np.random.Generator) -> tuple[Mesh, float]:
     """A pipe with flat ends, and how thick its wall is between opposite flats."""
-    around, outer = int(rng.integers(12, 49)), 1.0
-    inner, height = rng.uniform(0.5, 0.95), rng.uniform(0.5, 3.0)
-    angle = 2 * np.pi * np.arange(around) / around
-    circle = np.column_stack((np.cos(angle), np.sin(angle)))
-    rings = [(outer, 0.0), (outer, height), (inner, height), (inner, 0.0)]
-    points = np.concatenate([np.column_stack((r * circle, np.full(around, h))) for r, h in rings])
-    triangles = []
-    for i in range(around):
-        j = (i + 1) % around
-        for k in range(4):
-            a, b, c, d = (
-                around * k + i,
-                around * k + j,
-                around * ((k + 1) % 4) + j,
-                around * ((k + 1) % 4) + i,
-            )
-            triangles += [(a, b, c), (a, c, d)]
-    return (points, np.array(triangles, np.int32)), (outer - inner) * np.cos(np.pi / around)
+    around, inner, height = int(rng.integers(12, 49)), rng.uniform(0.5, 0.95), rng.uniform(0.5, 3.0)
+    wall = 1.0 - inner
+    return pipe(around, 1.0, 1.0, wall, height), wall * np.cos(np.pi / around)
 
 
 def turned(mesh: Mesh, rng: np.random.Generator, away: float) -> Mesh:

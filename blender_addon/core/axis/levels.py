@@ -7,6 +7,7 @@ Settings in percent become shares of the diagonal here, and values of the hierar
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -92,12 +93,19 @@ def extract_level(
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
     )
-    if settings.form is not Form.CURVE:
-        return axis
-    axis = with_detail(axis, level, hierarchy, samples, settings.detail)
-    if not relaxed:
-        return axis
-    return smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
+    if settings.form is Form.CURVE:
+        axis = with_detail(axis, level, hierarchy, samples, settings.detail)
+        if relaxed:
+            axis = smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
+    return _within_faces(axis, hierarchy)
+
+
+def _within_faces(axis: MedialAxis, hierarchy: Any) -> MedialAxis:
+    """Return an axis whose wires have balls that stay in the faces: detail and smooth lines weigh those of samples."""
+    rows, radius = np.unique(axis.edges), axis.radius.copy()
+    with native.own_errors():
+        radius[rows] = hierarchy.within_faces(axis.vertices[rows], radius[rows])
+    return replace(axis, radius=radius)
 
 
 def _of_sliders(hierarchy: Any) -> tuple[dict[str, SliderRange], float | None]:

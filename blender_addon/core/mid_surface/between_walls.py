@@ -21,27 +21,11 @@ _LIKE = 0.25  # in radii: walls whose distance differs by more from the expected
 def between_walls(
     places: Floats, normals: Floats, radius: Floats, expected: Floats, walls: Walls
 ) -> tuple[Flags, Floats, Floats]:
-    """Measure a sheet between its walls.
+    """Measure a sheet between its walls, from (n, 3) places inside of the solid along its (n, 3) unit normals.
 
-    Parameters
-    ----------
-    places : (n, 3) float64
-        Inside of the solid.
-    normals : (n, 3) float64
-        Unit normals of the sheet.
-    radius : (n,) float64
-        Half of the thickness of the sheet somewhere near.
-    expected : (n,) float64
-        About half of its thickness there.
-    walls : Walls
-
-    Returns
-    -------
-    found : (n,) bool
-        Whether both walls are about where they are expected; elsewhere the other two are nothing.
-    middles : (n, 3) float64
-    half : (n,) float64
-        Half of the way between the walls.
+    `radius` (n,) is half of its thickness somewhere near, and `expected` (n,) about that half there. Returns (n,)
+    whether both walls are about where they are expected, (n, 3) the middles and (n,) half of the way between the walls;
+    elsewhere these are nothing.
     """
     with own_errors() as module:
         below, above = (

@@ -80,16 +80,21 @@ def _clear(sheets: ThinSheets, unclear: Flags) -> Flags:
     """
     away = np.where(unclear, 0, _RINGS + 1)
     for ring in range(1, _RINGS + 2):
-        of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
-        of_facets[sheets.facet[unclear]] = True
         at = np.zeros(len(sheets.vertices), bool)
-        at[sheets.triangles[of_facets[sheets.facet]]] = True
+        at[sheets.triangles[_in_facets(sheets, unclear)]] = True
         unclear = at[sheets.triangles].any(axis=1)
         away[unclear] = np.minimum(away[unclear], ring - 1)
     away[sheets.sliver] = 0
     most = np.zeros(sheets.parts, np.int64)
     np.maximum.at(most, sheets.part, away)
     return np.asarray((away > 0) & (away == most[sheets.part]))
+
+
+def _in_facets(sheets: ThinSheets, some: Flags) -> Flags:
+    """(t,) the triangles of the facets that have some of the triangles."""
+    facets = np.zeros(int(sheets.facet.max()) + 1, bool)
+    facets[sheets.facet[some]] = True
+    return facets[sheets.facet]
 
 
 def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
@@ -100,9 +105,7 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     count = len(sheets.vertices)
     at_rim = np.zeros(count, bool)
     at_rim[single_edges(sheets.triangles, count)[0]] = True
-    facets = np.zeros(int(sheets.facet.max()) + 1, bool)
-    facets[sheets.facet[at_rim[sheets.triangles].any(axis=1)]] = True
-    rim = facets[sheets.facet]
+    rim = _in_facets(sheets, at_rim[sheets.triangles].any(axis=1))
     area = np.where(rim | unclear, 0.0, area)
     total, sums = np.zeros(count), np.zeros((count, 3))
     np.add.at(total, sheets.triangles, area[:, None])
@@ -111,9 +114,7 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     whole, length = total[sheets.triangles].sum(axis=1), np.linalg.norm(around, axis=1)
     flat = (whole > 0.0) & (length >= (1.0 - _FLAT) * whole)
     tilted = dot(sheets.normals, around) < (1.0 - _FLAT) * length
-    facets[:] = False
-    facets[sheets.facet[rim & flat & tilted]] = True
-    return facets[sheets.facet]
+    return _in_facets(sheets, rim & flat & tilted)
 
 
 def _doubled_areas(sheets: ThinSheets) -> Floats:
@@ -164,8 +165,10 @@ class _Planes:
         self._take(sheets, part, clear, area)
         curved = _are_curved(sheets, clear, area)
         if curved.any():
-            # Far from its facets the plane of a curved sheet is another one.
-            more = curved[sheets.part] & ~unclear & ~tilted & ~sheets.sliver & self._fits(sheets)
+            # Far from its facets the plane of a curved sheet is another one. A facet tells its slope
+            # as a whole, so one with a corner at an edge, however far that is, tells nothing.
+            not_more = unclear | tilted | sheets.sliver | ~self._fits(sheets)
+            more = curved[sheets.part] & ~_in_facets(sheets, not_more)
             self._take(sheets, part, clear | more, area)
         known = self.vertex[self._site] == self.vertex
         self._correct(sheets, ~known & _are_uneven(sheets, clear, area)[part], walls)

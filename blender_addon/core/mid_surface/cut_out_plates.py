@@ -24,19 +24,9 @@ _FLAT = 1e-3  # of the thickness: so flat are flat faces; of their area: so much
 
 
 def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
-    """Return the middle of a plate that is cut out along outlines.
+    """Return the middle of a plate that is cut out along outlines, given closed faces and the sheets that were found.
 
-    Parameters
-    ----------
-    shape : Shape
-        Closed faces that look outward.
-    sheets : CarriedSheets
-        What was found of its middle.
-
-    Returns
-    -------
-    plate : CarriedSheets or None
-        None where the solid is no such plate, or more of it than bridges is missing in the sheets.
+    None where the solid is no such plate, or more of it than bridges is missing in the sheets.
     """
     normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
     volumes = 0.5 * doubled * sheets.at_corners.mean(axis=1)

@@ -47,7 +47,6 @@ _UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from
 _STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
 _FLAT = 1e-3  # a mean normal that is shorter than 1 by less than this is that of a flat sheet
 _SAME = 1e-7  # of the diagonal: vertices so close are one
-_NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
 _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
 _CURVED = (
     1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted

@@ -146,16 +146,8 @@ def rims(
 ) -> Rims:
     """Find the rims of straight sheets and where they end.
 
-    Parameters
-    ----------
-    sheets : ThinSheets
-    straight : (v, 3) float64
-        Where its vertices are in the straight sheets.
-    normals : (t, 3, 3) float64
-        The normals of the sheets at the corners of its triangles.
-    radii : (t, 3) float64
-        Half of their thickness there.
-    walls : Walls
+    `straight` (v, 3) is where the vertices are in the straight sheets; `normals` (t, 3, 3) and `radii` (t, 3) are those
+    of the sheets at the corners of their triangles, half of the thickness.
     """
     edges = _edges(sheets, straight, normals, radii)
     kind, places, ahead = _ends_of(edges, walls)

@@ -14,14 +14,8 @@ _ROUNDS = 30  # at most; a fold goes in a few, and what is left lies between ver
 def unfolded(vertices: Floats, triangles: Ints, normals: Floats, stays: Flags) -> Floats:
     """Move vertices of triangles that are turned over to the middle of those around them, along the sheet.
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    triangles : (t, 3) int32
-    normals : (t, 3, 3) float64
-        The unit normals of the sheet at the corners of each triangle.
-    stays : (v,) bool
-        The vertices at rims and where sheets meet.
+    `normals` (t, 3, 3) are those of the sheet at the corners of each triangle; the vertices at rims and where sheets
+    meet stay.
     """
     found = vertices.copy()
     upward = normals.sum(axis=1)

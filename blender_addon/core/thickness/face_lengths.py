@@ -87,8 +87,8 @@ def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> b
     by_faces = settings.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
     if not (plain and by_faces and len(shape.triangles)) or shape.left_out.any():
         return False
-    if shape.open_edges or not shape.volume > 0.0:
-        return False
+    if shape.open_edges or not shape.volume > 0.0 or len(shape.crossing):
+        return False  # a face that another one crosses may bound the solid in its middle only
     return bounding_share(shape, first_pass(shape, settings).spacing) > 1.0 - _BURIED
 
 

@@ -339,9 +339,6 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
                        : betti_of(h.complex, h.outside, alive, quiet);
   if (h.even) smooth_new_rims(level, h, alive, run);
   if (options.relaxed) relax(level, h, options.crisp, run);
-  // Curves alone get less detail and smooth lines afterwards, which weigh wires by these balls.
-  const bool has_sheets = options.sheet < HUGE_VAL;
-  if (options.crisp && has_sheets && h.on_faces) draw_in_wires(level, *h.on_faces, run);
   advance(run.progress, 1);
   return level;
 }

@@ -199,15 +199,4 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
   Rewirer(level, h, chains, curves).rewire();
 }
 
-void draw_in_wires(Level& level, const SamplesOnFaces& samples, const Run& run) {
-  std::vector<int32_t> rows;
-  for (const Edge& wire : level.wires) rows.insert(rows.end(), wire.begin(), wire.end());
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  parallel_for(static_cast<int64_t>(rows.size()), {run.threads, nullptr, nullptr}, [&](int64_t i) {
-    double& radius = level.radius[rows[i]];
-    radius = samples.within_faces(level.vertices[rows[i]], radius);
-  });
-}
-
 }  // namespace medial

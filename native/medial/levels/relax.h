@@ -10,7 +10,4 @@ namespace medial {
 // Relaxes a level. With `to_faces`, curves end in the tips of cones of the faces.
 void relax(Level& level, const Hierarchy::Parts& hierarchy, bool to_faces, const Run& run);
 
-// Lets no ball of a wire leave the faces.
-void draw_in_wires(Level& level, const SamplesOnFaces& samples, const Run& run);
-
 }  // namespace medial

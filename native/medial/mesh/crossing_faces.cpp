@@ -28,9 +28,13 @@ Corners corners_of(std::span<const Vec3> points, const Triangle& triangle) {
   return {corner(0), corner(1), corner(2)};
 }
 
-// Returns whether a segment passes through the inside of a triangle.
+// Returns whether a segment passes through the inside of a triangle. One from a corner of it does
+// not, which arithmetic would find out late, as the corner is exactly in the plane.
 bool pierces(const Point& from, const Point& to, const Corners& triangle) {
   const auto& [a, b, c] = triangle;
+  for (const Point& corner : triangle) {
+    if (corner == from || corner == to) return false;
+  }
   const auto side = CGAL::orientation(a, b, c, from);
   if (side == CGAL::COPLANAR || CGAL::orientation(a, b, c, to) != -side) return false;
   const auto turn = CGAL::orientation(from, to, a, b);

@@ -14,9 +14,10 @@ struct Width {
   double between = HUGE_VAL;  // between walls only, and with the other one's plane
 };
 
-// Returns the width; `inward` is 1 if the balls are against the normals, -1 if along them.
+// Returns the width; `inward` is 1 if the balls are against the normals, -1 if along them. The
+// plane at q stands for the surface as far as the samples round it.
 Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
-            bool q_at_edge, bool q_reflex, double inward) {
+            bool q_at_edge, bool q_reflex, double q_spacing, double inward) {
   const Vec3 apart = p - q;
   const double height = inward * dot(normal_p, apart);
   if (!(height > 0)) return {};
@@ -27,19 +28,23 @@ Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& norm
   // smaller by the ratio of the wall's curvature to the ball's, and none between planes.
   found.between = found.diameter;
   const double planes = -2 * inward * dot(normal_q, apart) / (1 - cosine);
-  if (!q_at_edge && planes > 0) found.between = std::min(found.between, planes);
+  const Vec3 foot = p - 0.5 * planes * inward * (normal_p - normal_q);
+  if (!q_at_edge && planes > 0 && distance(foot, q) <= q_spacing) {
+    found.between = std::min(found.between, planes);
+  }
   return found;
 }
 
 // Returns the widths at both ends of each facet.
 std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tangents& tangents,
-                                         const Edges& edges, std::span<const int32_t> edge_ids,
-                                         double inward, const Run& run) {
+                                         const Edges& edges, std::span<const double> spacing,
+                                         std::span<const int32_t> edge_ids, double inward,
+                                         const Run& run) {
   std::vector<std::array<Width, 2>> result(edge_ids.size());
   const auto at = [&](int32_t p, int32_t q) {
     if (tangents.edge[p]) return Width{};
     return width(points[p], points[q], tangents.normals[p], tangents.normals[q], tangents.edge[q],
-                 tangents.reflex[q], inward);
+                 tangents.reflex[q], spacing[q], inward);
   };
   parallel_for(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t i) {
     const auto& [p, q] = edges.ends[edge_ids[i]];
@@ -51,13 +56,14 @@ std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tan
 }  // namespace
 
 TangentBalls tangent_balls(std::span<const Vec3> points, const Tangents& tangents,
-                           const Edges& edges, std::span<const int32_t> edge_ids, Side side,
-                           const Run& run) {
+                           const Edges& edges, std::span<const double> spacing,
+                           std::span<const int32_t> edge_ids, Side side, const Run& run) {
   const size_t count = tangents.normals.size();
   TangentBalls balls{std::vector<double>(count, HUGE_VAL), std::vector<double>(count, HUGE_VAL),
                      std::vector<uint8_t>(count, 0)};
   std::vector<double> nearest(count, HUGE_VAL);  // the smallest ball between walls, without planes
-  const auto found = widths(points, tangents, edges, edge_ids, side == Side::inner ? 1 : -1, run);
+  const double inward = side == Side::inner ? 1 : -1;
+  const auto found = widths(points, tangents, edges, spacing, edge_ids, inward, run);
   for (size_t i = 0; i < edge_ids.size(); ++i) {
     for (int end = 0; end < 2; ++end) {
       const int32_t p = edges.ends[edge_ids[i]][end];

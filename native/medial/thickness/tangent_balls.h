@@ -29,9 +29,10 @@ struct TangentBalls {
   std::vector<uint8_t> touched;  // the sample has a facet
 };
 
-// Computes the balls from the facets dual to `edge_ids`, all of one side, inner or outer.
+// Computes the balls from the facets dual to `edge_ids`, all of one side, inner or outer. `spacing`
+// is how far the samples round each sample are away.
 TangentBalls tangent_balls(std::span<const Vec3> points, const Tangents& tangents,
-                           const Edges& edges, std::span<const int32_t> edge_ids, Side side,
-                           const Run& run);
+                           const Edges& edges, std::span<const double> spacing,
+                           std::span<const int32_t> edge_ids, Side side, const Run& run);
 
 }  // namespace medial

@@ -78,7 +78,8 @@ Values by_tangent_balls(const ThicknessInput& input, const ThicknessOptions& opt
   Tangents tangents = tangents_of(input, samples);
   tangents.reflex = reflex_edges(tangents, facets, options.side);
   const auto ids = selected_edges(options.thresholds, options.side, facets, run);
-  TangentBalls balls = tangent_balls(facets.points, tangents, facets.edges, ids, options.side, run);
+  TangentBalls balls = tangent_balls(facets.points, tangents, facets.edges,
+                                     facets.significance.spacing, ids, options.side, run);
   const bool walls = options.mode == ThicknessMode::wall;
   Values found{walls ? balls.wall : balls.any, {}};
   found.measured = finite(found.lengths);
