@@ -30,6 +30,7 @@ PRODUCTS = {
     "balls": "balls",
     "midsurface": "mid_surface",
     "hollow": "hollow",
+    "solidify": "solidify",
     "robot": "robot",
 }
 
