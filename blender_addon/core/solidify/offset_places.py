@@ -148,11 +148,12 @@ def _free_shares(
 ) -> tuple[Floats, Floats]:
     """(v,) the shares of ways that are free, 1 for whole ways, and the next shares that were looked at.
 
-    The ball at a place covers the way before and behind it, so that the next one is looked at where this ball ends.
+    The ball at a place covers the way before and behind it, so that the next one is looked at where this ball ends. A
+    way along which it grows too slowly is not free from the beginning.
     """
-    found, rows = np.zeros(len(points)), np.arange(len(points))
-    share = np.full(len(points), _NEAREST)
+    found, share = np.zeros(len(points)), np.full(len(points), _NEAREST)
     length = np.sqrt(dot(moves, moves))
+    rows = np.flatnonzero((length > 0.0) & (length <= 2.0 * _FARTHEST * least))
     while len(rows):
         at = share[rows]
         away = distances(points[rows] + at[:, None] * moves[rows])
@@ -173,7 +174,8 @@ def _along_axis(
     The sheet of `distances` goes on beyond its rims, so that no way leads round them.
     """
     length = np.sqrt(dot(straight, straight))[:, None]
-    normals, lacks = (straight / length)[:, None], np.full((len(points), 1), wall)
+    normals = (straight / np.where(length > 0.0, length, 1.0))[:, None]
+    lacks = np.full((len(points), 1), wall)
     moves, found, rows = straight.copy(), np.zeros_like(straight), np.arange(len(points))
     for _ in range(_ROUNDS):
         least = np.full(len(rows), (1.0 - EVEN) * wall)

@@ -46,6 +46,7 @@ def sheet_of(shape: Shape, selected: Flags | None = None) -> Sheet:
     InvalidInputError
         There are no faces, more than two meet at an edge, or a sheet has one side only.
     """
+    _ = shape.open_edges  # it raises where corners are no rows of the points
     if selected is not None:
         shape = replace(shape, triangles=shape.triangles[selected], reading=None)
     faces = _faces(shape)

@@ -119,12 +119,11 @@ def _apart(sheet: Sheet, sides: list[OffsetPlaces]) -> tuple[Shape, int]:
         pairs = _crossing(solid, moved)
         moved = np.isin(np.arange(len(points)), triangles[pairs]) & (back < 1.0)
         if not moved.any():
-            break
+            return solid, len(solid.crossing) if (back == 1.0).any() else 0
         # A vertex that has given up nine tenths of its way and still crosses stays on the sheet.
         slower = np.where(back < 0.9, 0.5 + 0.5 * back, 1.0)
         faster = np.maximum(2.0 * back, EVEN)
         back[moved] = np.where(faster < 1.0, faster, slower)[moved]
-    return solid, len(pairs)
 
 
 def _crossing(solid: Shape, moved: Flags) -> Longs:
@@ -173,7 +172,7 @@ def _measured(
         np.tile(at_vertices, 2).astype(np.float32),
         wall,
         float(min(at_vertices.min(), at_middles.min())),
-        float((narrow * areas).sum() / (areas.sum() or 1.0)),
+        float((narrow * areas).sum() / areas.sum()) if areas.any() else 1.0,
         0,
         solid.volume,
         (),
