@@ -80,10 +80,11 @@ def _faces(shape: Shape) -> Ints:
 
 def _disagreeing(faces: Ints) -> tuple[int, int]:
     """The number of edges with more than two faces, and of the others that two faces pass the same way."""
-    ends = np.stack((faces, np.roll(faces, -1, axis=1)), axis=-1).reshape(-1, 2).astype(np.int64)
+    start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1)
     count = int(faces.max()) + 1
-    _, uses = np.unique(np.sort(ends, axis=1) @ (count, 1), return_counts=True)
-    _, ways = np.unique(ends @ (count, 1), return_counts=True)
+    ends = np.minimum(start, end) * count + np.maximum(start, end)
+    _, uses = np.unique(ends, return_counts=True)
+    _, ways = np.unique(start * count + end, return_counts=True)
     many = int((uses > 2).sum())
     return many, 0 if many else int((ways > 1).sum())
 
