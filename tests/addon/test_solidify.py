@@ -42,9 +42,12 @@ def test_a_grid_becomes_a_plate_in_the_worlds_unit():
 
 def test_selected_faces_alone_become_a_solid():
     source = grid()
-    for face in source.data.polygons:
-        face.select = face.center.x > 0
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for face in bmesh.from_edit_mesh(source.data).faces:
+        face.select_set(face.calc_center_median().x > 0)
     assert volume(solid(source, only_selected=True)) == pytest.approx(2 * WALL, rel=1e-5)
+    bpy.ops.object.mode_set(mode="OBJECT")
     source.modifiers.new("Subdivision", "SUBSURF")
     select(source)
     refuse("modifiers keep its faces", "medial_axis_solidify", only_selected=True)
