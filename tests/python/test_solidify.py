@@ -8,7 +8,7 @@ from medial_axis.core.settings import SolidifySettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.solidify.solidify import solidify
 from support.crossing_triangles import crossing_pairs
-from support.meshes import icosphere
+from support.meshes import icosphere, read
 
 
 def strip(profile, width=1.0, steps=6):
@@ -83,6 +83,13 @@ def test_a_closed_surface_gets_a_wall_inside():
     found = solid(Shape(points, triangles.astype(np.int32)), 0.1, -1.0)
     assert found.volume == pytest.approx(4 / 3 * np.pi * (1 - 0.9**3), rel=0.02)
     assert Shape(found.vertices, found.triangles).solid_betti == (1, 0, 1)
+
+
+def test_coarse_corners_are_not_left_through_their_faces(data_file):
+    """With faces as long as the wall is thick, two ways once led out of the ears, and ten corners lost their walls."""
+    points, triangles = read(data_file("spot_low.obj"))
+    wall = 0.03 * np.linalg.norm(np.ptp(points, axis=0))
+    assert solid(Shape(points, triangles.astype(np.int32)), wall, -1.0).least > 0.8 * wall
 
 
 def test_the_size_of_the_sheet_and_where_it_is_do_not_matter():

@@ -80,6 +80,8 @@ def offset_places(points: Floats, triangles: Ints, wall: float, progress: Progre
     if len(rows):
         endless = _distances_from(*beyond_rims(points, triangles, 2.0 * _FARTHEST * wall), progress)
         moves[rows] += _along_axis(points[rows], straight[rows], reached[rows], wall, endless)
+        through = _heights(points, triangles, moves) <= 0.0
+        moves[through] = reached[through]
     tight = np.zeros(len(points), bool)
     tight[triangles[(free < 1.0)[triangles].any(axis=1)]] = True
     rim = np.isin(np.arange(len(points)), rim_sides(triangles)[:, 0])
@@ -104,13 +106,24 @@ def _smoothed(
     count = np.bincount(start, minlength=len(points))[:, None]
     places = points + moves
     least = (1.0 - EVEN) * np.minimum(distances(places), wall)
+    lowest = 0.5 * _heights(points, triangles, moves)
     for _ in range(_ROUNDS):
         total = np.zeros_like(places)
         np.add.at(total, start, places[end])
         nearer = 0.5 * places + 0.5 * total / count
-        fits = loose & (distances(nearer) >= least)
+        before = _heights(points, triangles, nearer - points) >= lowest
+        fits = loose & before & (distances(nearer) >= least)
         places[fits] = nearer[fits]
     return places - points
+
+
+def _heights(points: Floats, triangles: Ints, moves: Floats) -> Floats:
+    """(v,) how far moves lead in front of the planes of all faces of a vertex, at least."""
+    normals, _ = unit_normals(points[triangles])
+    found = np.full(len(moves), np.inf)
+    for corner in range(3):
+        np.minimum.at(found, triangles[:, corner], dot(normals, moves[triangles[:, corner]]))
+    return found
 
 
 def _distances_from(points: Floats, triangles: Ints, progress: Progress) -> Distances:
