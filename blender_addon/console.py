@@ -130,6 +130,9 @@ def _said(report: dict[str, Any]) -> str:
             f"{report['count']:,} {_shapes(report)}, {100 * report['covered']:.1f} % of the volume, "
             f"{report['outside']:.4g} outside, surface at most {report['farthest']:.4g} away"
         )
+    if "share_without_room" in report:
+        lack = percent(report["share_without_room"])
+        return f"wall {report['wall']:.4g}, {report['least_wall']:.4g} at least, no room on {lack}"
     if "cavities" in report:
         cavities = "1 cavity" if report["cavities"] == 1 else f"{report['cavities']:,} cavities"
         left = percent(report["volume"] / report["volume_of_solid"])

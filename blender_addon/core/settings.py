@@ -905,6 +905,34 @@ class HollowSettings(Options):
 HOLLOW_OPTIONS = options_of(HollowSettings)
 
 
+@dataclass(frozen=True)
+class SolidifySettings(Options):
+    """The wall that a sheet becomes."""
+
+    thickness: float = number(
+        "Thickness",
+        "How thick the solid is; 0: 1 % of the diagonal of the bounding box",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+    offset: float = number(
+        "Offset",
+        "Where the faces lie in the solid; -1: it is behind them, 0: on both sides, 1: in front of them",
+        default=0.0,
+        limits=(-1.0, 1.0),
+    )
+    only_selected: bool = switch(
+        "Selected Faces",
+        "Only faces that are selected in edit mode become a solid",
+        default=False,
+    )
+
+
+SOLIDIFY_OPTIONS = options_of(SolidifySettings)
+
+
 class DrainAt(Enum):
     """Where the hole in the wall of a hollow solid is."""
 

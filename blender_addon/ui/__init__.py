@@ -21,7 +21,7 @@ _MODULES = (
     "base.translation", "settings.apply_later", "settings.properties", "thickness.thickness_properties",
     "settings.self_test_operator", "settings.asset_library", "base.plain_words", "settings.preferences",
     "axis.operators", "axis.auto_update", "skeleton.skeleton_operators", "thickness.thickness_limits",
-    "thickness.thickness_operators", "thickness.thicken", "hollow", "axis.export_axis",
+    "thickness.thickness_operators", "thickness.thicken", "hollow", "solidify", "axis.export_axis",
     "thickness.export_thickness", "axis.import_points", "axis.inward_faces", "settings.presets", "base.legend",
     "base.show", "settings.guide", "panels.panels", "axis.parts", "skeleton.skeleton_panel",
     "thickness.thickness_panel", "rebuild", "balls", "panels.settings_panels", "axis.compute_sequence", "reduce",

@@ -40,6 +40,7 @@ PRODUCTS = {
     "thicken": (["stl"], ["--limit", "0.3"]),
     "midsurface": (["obj", "inp"], []),
     "hollow": (["stl"], []),
+    "solidify": (["stl"], []),
     "balls": (["ma", "urdf", "xml"], ["--count", "16"]),
     "balls capsules": (["json"], ["--shapes", "capsules", "--count", "4"]),
 }

@@ -45,6 +45,7 @@ COMMANDS = {
         ("--wall", "0.14"),
         "cavities",
     ),
+    "solidify": Command(("solidify",), ("--thickness", "0.1"), "stl", ("--offset", "1"), "volume"),
 }
 
 

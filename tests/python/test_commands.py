@@ -140,7 +140,7 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
             write(tmp_path / name.replace("####", f"{frame:04d}"))
     if words[0] == "robot":
         (tmp_path / words[1]).write_text(ROBOT)
-    if any(name.endswith(".stl") for name in inputs) and words[0] != "hollow":
+    if any(name.endswith(".stl") for name in inputs) and words[0] not in ("hollow", "solidify"):
         words += ["--samples", "300"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}
     code = cli.main(words)
@@ -149,6 +149,7 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
         "thicken": (0, 5),
         "midsurface": (0, 3),
         "hollow": (0, 3),
+        "solidify": (0, 5),
     }  # thin parts; an ellipsoid has no thin walls, and is less than 4 thick
     assert code in may_end.get(words[0], (0,)), capsys.readouterr().err
     if code == 3:

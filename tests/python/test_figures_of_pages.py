@@ -19,6 +19,7 @@ DESCRIBED = {
     "thickness": ("THICKNESS_OPTIONS", "THICKEN_OPTIONS"),
     "mid_surface": ("MID_SURFACE_OPTIONS",),
     "hollow": ("HOLLOW_OPTIONS", "DRAIN_OPTIONS"),
+    "solidify": ("SOLIDIFY_OPTIONS",),
     "balls": ("BALL_OPTIONS",),
 }
 

@@ -31,6 +31,7 @@ MAY_IMPORT = {
         *(*_ALL, "core/shape", "core/samples", "core/axis", "core/files", "core/thickness"),
     },
     "core/hollow": {*_ALL, "core/shape", "core/samples"},
+    "core/solidify": {*_ALL, "core/shape", "core/samples", "core/thickness"},
     "core/cover": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
     "core/robot": {*_ALL, "core/shape", "core/files", "core/cover"},
     "core/rebuild": {*_ALL, "core/shape", "core/samples", "core/axis"},

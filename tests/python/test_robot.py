@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.errors import ReadError
+from medial_axis.core.machine import native
 from medial_axis.core.robot.primitive_meshes import ball_mesh, box_mesh, cylinder_mesh
 from medial_axis.core.robot.robot_file import read_robot
 from medial_axis.core.robot.xml_spans import elements_of
@@ -114,6 +115,23 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
     assert report["links_left"] == []
     if "--capsules" in words:  # the least capsule of the box that was found has this volume
         assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)
+
+
+def test_balls_inside_stay_in_their_link(arm, tmp_path):
+    out = tmp_path / "out.urdf"
+    assert run(arm, out, "--balls", 8, "--mode", "inside") == cli.DONE
+    links = {link.get("name"): link for link in ElementTree.parse(out).getroot().iter("link")}
+    ways = np.random.default_rng(0).normal(size=(200, 3))
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    for geometry in read_robot(arm)[0].links[:3]:
+        balls = list(links[geometry.name].iter("collision"))
+        assert 1 <= len(balls) <= 8
+        for ball in balls:
+            radius = float(ball.find("geometry/sphere").get("radius"))
+            places = numbers(ball.find("origin"), "xyz", "0 0 0") + 0.999 * radius * ways
+            with native.own_errors() as module:
+                winding = module.winding_number(places, geometry.points, geometry.triangles)
+            assert winding.min() > 0.5
 
 
 def test_everything_else_stays_byte_for_byte(arm, tmp_path):

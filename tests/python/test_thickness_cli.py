@@ -46,6 +46,7 @@ def test_exit_code_says_whether_something_is_thin(box, tmp_path, capsys):
         ("thicken", "--blend"),
         ("hollow", "--wall"),
         ("hollow", "--voxel-size"),
+        ("solidify", "--thickness"),
         ("midsurface", "--size"),
     ],
 )

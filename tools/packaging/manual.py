@@ -24,6 +24,7 @@ PAGES = (
     "balls",
     "mid_surface",
     "hollow",
+    "solidify",
     "small_mesh",
     "parts",
     "command_line",

@@ -30,6 +30,7 @@ PRODUCTS = {
     "balls": "balls",
     "midsurface": "mid_surface",
     "hollow": "hollow",
+    "solidify": "solidify",
     "robot": "robot",
 }
 
@@ -56,19 +57,23 @@ class Product(Work):
     usual: ClassVar[str]  # the format of files in a folder, such as "ply"
     help: ClassVar[str]  # inputs, outputs and examples, after the options
     reads_shapes: ClassVar[bool] = True  # what is no shape has no connected parts
+    samples: ClassVar[bool] = True  # whether the settings of the method matter
+    hidden: ClassVar[tuple[str, ...]] = ()  # its own options that Blender has alone
     # The exit codes that mean other things than those of all products.
     codes: ClassVar[tuple[tuple[int, str], ...]] = ()
 
     @classmethod
     def add_words(cls, parser: argparse.ArgumentParser) -> None:
         """Add the product's options to a parser."""
-        add_options(parser.add_argument_group(cls.heading), cls.kind)
-        add_sampling(parser.add_argument_group("method"))
+        add_options(parser.add_argument_group(cls.heading), cls.kind, without=cls.hidden)
+        if cls.samples:
+            add_sampling(parser.add_argument_group("method"))
 
     @classmethod
     def from_words(cls, words: argparse.Namespace) -> Product:
         """Return the product that a parsed command line asks for; InvalidInputError where a number is wrong."""
-        return cls(sampling_from(words), settings_from(words, cls.kind))
+        method = sampling_from(words) if cls.samples else Settings()
+        return cls(method, settings_from(words, cls.kind))
 
     @staticmethod
     def read(path: str, limit: MemoryLimit) -> tuple[Any, tuple[str, ...]]:
@@ -85,7 +90,8 @@ class Product(Work):
     def words(self) -> dict[str, Any]:
         """Return the settings as words of the command line, for the report."""
         own = {} if self.wanted is None else as_words(self.wanted)
-        return {**as_words(self.settings), **own}
+        method = as_words(self.settings) if self.samples else {}
+        return {**method, **{name: own[name] for name in own if name not in self.hidden}}
 
     def exit_code(self, _report: dict[str, Any]) -> int:
         """Return what the report of a finished output means for the whole run."""

@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import argparse
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..batch.option_words import add_options, add_sampling
 from ..files.json_figures import known
 from ..files.write_triangles import TRIANGLE_FORMATS, export_triangles
 from ..machine.memory_limit import MemoryLimit
@@ -30,6 +28,7 @@ class ThickerWalls(Product):
     kind = ThickenSettings
     formats = TRIANGLE_FORMATS
     usual = "stl"
+    hidden = ("moving",)
     codes = ((0, "all walls have the limit"), (5, "something is still thinner than the limit"))
     help = """\
 INPUT     as of medial_axis --help; the faces are closed.
@@ -41,12 +40,6 @@ examples:
   medial_axis thicken parts/*.stl thicker/ --format stl --limit 1.2 --subdivide --json
 """
 
-    @classmethod
-    def add_words(cls, parser: argparse.ArgumentParser) -> None:
-        group = parser.add_argument_group(cls.heading)
-        add_options(group, cls.kind, without=("moving",))  # faces are selected in Blender only
-        add_sampling(parser.add_argument_group("method"))
-
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Thickened:
         return thicken(shape, self.settings, self.wanted, None, progress, limit)
 
@@ -54,12 +47,6 @@ examples:
         shape = found.after.shape
         export_triangles(shape.points, shape.triangles, path, frame, self.wanted.limit)
         return ()
-
-    def words(self) -> dict[str, Any]:
-        """Return the settings as words of the command line."""
-        words = super().words()
-        del words["moving"]
-        return words
 
     def figures(self, found: Thickened) -> dict[str, Any]:
         """Return figures; None means that there is no such length."""

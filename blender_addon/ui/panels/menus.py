@@ -24,6 +24,7 @@ _VERBS = (
         "object.medial_axis_thicken": "MOD_SOLIDIFY",
         "object.medial_axis_unsolidify": "MOD_SOLIDIFY",
         "object.medial_axis_hollow": "MESH_UVSPHERE",
+        "object.medial_axis_solidify": "MOD_SOLIDIFY",
     },
     {
         "object.medial_axis_rebuild": "MOD_REMESH",
@@ -66,6 +67,8 @@ def _copy_panels(context, operator, button):
         button.limit = scene.medial_axis_thickness.limit
     elif operator == "object.medial_axis_hollow":
         button.wall = scene.medial_axis_thickness.limit
+    elif operator == "object.medial_axis_solidify":
+        button.thickness = scene.medial_axis_thickness.limit
     elif operator == "object.medial_axis_sequence":
         copy_sequence(scene, button)
 

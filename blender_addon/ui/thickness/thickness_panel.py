@@ -61,9 +61,9 @@ def _draw_made(context, layout):
     row = layout.row(align=True)
     button = row.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
     copy_settings(context.scene.medial_axis, button)
-    row.operator(
-        "object.medial_axis_hollow", icon="MESH_UVSPHERE"
-    ).wall = context.scene.medial_axis_thickness.limit
+    limit = context.scene.medial_axis_thickness.limit
+    row.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE").wall = limit
+    row.operator("object.medial_axis_solidify", icon="MOD_SOLIDIFY").thickness = limit
 
 
 def _draw_found(context, layout, carrier):
