@@ -20,7 +20,7 @@ from .net import Net
 _AS_FAR = (
     0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
 )
-_LAST = 2.0  # the end of a limb is this many radii long
+LAST = 2.0  # the end of a limb is this many radii long, and closer ends mean its tip
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +119,7 @@ def _end(net: Net, tip: int, owner: Longs, balls: Balls) -> None:
 def _start_of_end(net: Net, chain: list[int]) -> int:
     """Return the last position on a chain that is more than two of its radii away from the tip, or 0."""
     away = np.linalg.norm(net.points[chain[:-1]] - net.points[chain[-1]], axis=1)
-    far = np.flatnonzero(away > _LAST * net.radius[chain[:-1]])
+    far = np.flatnonzero(away > LAST * net.radius[chain[:-1]])
     return int(far[-1]) if len(far) else 0
 
 

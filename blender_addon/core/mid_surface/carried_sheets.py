@@ -122,12 +122,11 @@ def _doubled_areas(sheets: ThinSheets) -> Floats:
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
-def _are_curved(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
-    """(parts,) the sheets whose clear triangles do not have one normal."""
-    weight = np.where(clear, area, 0.0)
-    total = np.zeros((sheets.parts, 3))
-    np.add.at(total, sheets.part, weight[:, None] * sheets.normals)
-    whole = np.bincount(sheets.part, weight, sheets.parts)
+def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
+    """(parts,) the sheets without one normal, given (t, 3) normals that are as long as triangles are large."""
+    total = np.zeros((parts, 3))
+    np.add.at(total, part, vectors)
+    whole = np.bincount(part, np.linalg.norm(vectors, axis=1), parts)
     return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
 
 
@@ -162,7 +161,8 @@ class _Planes:
         tilted = _tilted(sheets, unclear, area)
         clear = _clear(sheets, unclear) & ~tilted
         self._take(sheets, part, clear, area)
-        curved = _are_curved(sheets, clear, area)
+        vectors = np.where(clear, area, 0.0)[:, None] * sheets.normals
+        curved = are_curved(vectors, sheets.part, sheets.parts)
         if curved.any():
             # Far from its facets the plane of a curved sheet is another one.
             more = curved[sheets.part] & ~unclear & ~tilted & ~sheets.sliver & self._fits(sheets)

@@ -21,9 +21,9 @@ constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;
 // if it is so many times as large as these, reaches as many times as far from their edge, and turns
 // no more than they do.
 constexpr double kLong = 4;
-// A single triangle, or a wall that is not quite flat, has to reach so many times as far from each
-// edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
-constexpr double kFar = 8, kTinyTurn = 0.01;
+// A single triangle, or a wall that is not quite flat, has to reach kDominant times as far from
+// each edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
+constexpr double kTinyTurn = 0.01;
 // Large triangles that turn by less are of one wall.
 constexpr double kOnePlane = 0.05;
 
@@ -124,7 +124,7 @@ class Walls {
         here.narrow |= across < kWide * reach;
         here.bevel |= bevel;
       }
-      if (across >= kFar * reach)
+      if (across >= kDominant * reach)
         (bevel || turn(edge) <= kTinyTurn ? here.straight : here.curved) = true;
     }
   }

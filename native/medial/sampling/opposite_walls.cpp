@@ -10,7 +10,6 @@ namespace {
 
 constexpr int32_t kLeafOfWalls = 4;
 constexpr int kMostShrinkings = 32;
-constexpr double kFacing = 0.5;  // the cosine of 60 degrees
 constexpr double kUpright =
     0.94;  // the cosine between a normal and the way to the centre, at least
 constexpr int kMostSteps = 12;
@@ -66,7 +65,7 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
       [&](const Node& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const int32_t t = order_[i];
-          if (!(sign * dot(mesh_.normal[t], normal) < -kFacing)) continue;
+          if (!(sign * dot(mesh_.normal[t], normal) < kOpposite)) continue;
           const auto& [p, q, r] = mesh_.triangles[t];
           const Barycentric at =
               closest_on_flat(mesh_.points[p], mesh_.points[q], mesh_.points[r], centre);

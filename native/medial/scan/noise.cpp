@@ -12,8 +12,7 @@ namespace {
 constexpr std::array<size_t, 10> kSizes{10, 16, 24, 36, 54, 80, 120, 180, 270, 400};
 constexpr int64_t kPlaces = 1500;  // determine a median to 3 percent
 constexpr int64_t kPlacesOfFaces = 500;
-constexpr double kPlateau = 1.2;   // a smaller growth from size to size is no curvature
-constexpr double kLargest = 0.12;  // of the diagonal: a larger neighbourhood is the shape itself
+constexpr double kPlateau = 1.2;  // a smaller growth from size to size is no curvature
 // The median distance of even samples to their nearest neighbour, in units of the root of the area
 // that each has.
 constexpr double kNearest = 0.85;
@@ -216,13 +215,13 @@ NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run,
   };
   const NoiseFigures none{spacing_at(2)};
   if (static_cast<size_t>(tree.size()) <= kSizes[4]) return none;
-  const auto [best, last] = plateau_of(measured, all, kLargest * diagonal);
+  const auto [best, last] = plateau_of(measured, all, kWidest * diagonal);
   if (best == 0) return none;
   const double noise = all.spread[best], spacing = spacing_at(best);
   if (noise < kLeast * spacing) return none;
   const double seen = measured.has_faces() ? kSeenOfFaces : kSeen * seen_of(noise / spacing);
   if (all.spread[0] < seen * noise) return none;
-  const size_t wide = widened(measured, all, best, kLargest * diagonal);
+  const size_t wide = widened(measured, all, best, kWidest * diagonal);
   // Beyond the plateau a neighbourhood holds two walls, whose points have the same heights.
   const double mates = last < kUnder ? 0 : all.mates;
   return {spacing, noise, all.kurtosis[best], mates, all.radius[wide]};

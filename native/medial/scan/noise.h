@@ -8,6 +8,8 @@
 namespace medial {
 
 constexpr double kSameWay = 0.2;  // the least cosine between normals that look the same way
+// Of the diagonal, the radius of neighbourhoods; a larger one is the shape itself.
+constexpr double kWidest = 0.12;
 
 struct NoiseFigures {
   double spacing = 0, noise = 0, kurtosis = 3, mates = 0;

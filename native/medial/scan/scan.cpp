@@ -13,7 +13,6 @@
 namespace medial {
 namespace {
 
-constexpr double kWidest = 0.12;       // of the diagonal, the radius of neighbourhoods
 constexpr double kApart = 3;           // spacings between places at which neighbourhoods are chosen
 constexpr double kBorder = 6;          // spacings over which a border is looked for
 constexpr double kLeft = 0.05;         // of the new spacing, what may be left of the noise

@@ -21,8 +21,8 @@ constexpr double kAlike = 0.5;
 // Curved triangles know the surface up to this share of their bulge, but at vertices: measured on a
 // torus of 90,000 slanted triangles, whose balls are off by a twentieth.
 constexpr double kUnknown = 1.0 / 16;
-// Normals of walls that are opposite differ by 120 degrees or more, of nearly parallel ones by 165.
-constexpr double kOpposite = -0.5, kParallel = -0.9659258262890683;
+// The normals of nearly parallel walls differ by 165 degrees or more.
+constexpr double kParallel = -0.9659258262890683;
 // Places opposite lie no farther than the root of 3/4 from half of the way to the far end of a
 // ball, in radii; some more for normals that are not quite those of the ball.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;

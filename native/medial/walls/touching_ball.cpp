@@ -5,9 +5,7 @@ namespace medial {
 namespace {
 
 constexpr int kBallSteps = 16;
-constexpr int kPatience = 4;  // steps after which each has to halve the inequality
-// Directions to walls that differ by less than about 5 degrees do not determine a place.
-constexpr double kSameDirection = 0.08;
+constexpr int kPatience = 4;         // steps after which each has to halve the inequality
 constexpr double kRounding = 2e-14;  // of the radius
 
 struct Feet {
@@ -54,7 +52,7 @@ Vec3 step_of(const Feet& feet) {
     std::swap(row[round], row[longest]);
     std::swap(wanted[round], wanted[longest]);
     const double size = length(row[round]);
-    if (size < kSameDirection) break;
+    if (size < kSameFoot) break;
     const Vec3 unit = (1 / size) * row[round];
     const double along = wanted[round] / size;
     step = step + along * unit;
