@@ -27,7 +27,7 @@ from .medial_axis import MedialAxis
 from .topology import topology_sentence
 
 # The share of the work before the hierarchy begins.
-ANALYSIS = 0.6
+ANALYSIS = 0.6  # work: progress
 
 
 @dataclass(frozen=True, eq=False)

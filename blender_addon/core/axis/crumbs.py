@@ -20,7 +20,7 @@ from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
 from .spacing import spacing_of
 
-LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting
+LARGEST = 4.0  # larger pieces are no crumbs, whatever the setting; chosen: unseen
 
 
 def crumb_sizes(level: Any, samples: AnalysedSamples) -> NDArray[np.float32]:

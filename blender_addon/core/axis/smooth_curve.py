@@ -27,10 +27,10 @@ from .rows_of_axis import OF_VERTICES, with_rows
 Depth = Callable[[Floats], Floats]
 Inside = Callable[[Floats], Flags]
 
-FARTHEST = 0.5  # of its radius: a place moves no farther, and so stays in its ball
-_NEAR = 0.25  # this many steps before and after a fork there is no place
+FARTHEST = 0.5  # of its radius: a place stays in its ball; chosen: axis, skeleton
+_NEAR = 0.25  # this many steps before and after a fork there is no place; chosen: axis
 _FEWEST = 3  # a wire with a vertex between its ends has this many places there, so no two lines share their ends only
-_FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves
+_FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves; chosen: axis
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 
-ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
+ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal; derived: rounding
 
 
 class Depth:

@@ -17,10 +17,8 @@ from ..arrays import Floats, Longs
 from ..small_matrices import dot, length_of
 from .net import Net
 
-_AS_FAR = (
-    0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
-)
-LAST = 2.0  # the end of a limb is this many radii long, and closer ends mean its tip
+_AS_FAR = 0.25  # of its radius: a ball less short reaches farthest; chosen: skeleton
+LAST = 2.0  # radii: the end of a limb, and closer ends mean its tip; chosen: skeleton
 
 
 @dataclass(frozen=True, eq=False)

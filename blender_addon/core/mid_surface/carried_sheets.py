@@ -23,14 +23,14 @@ from .thin_sheets import ThinSheets
 from .unfolded_sheets import unfolded
 
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
-_BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least
-_EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal
-_FLAT = 2e-8  # one less the cosine between planes that are one
+_BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least; chosen: unseen
+_EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal; chosen: unseen
+_FLAT = 2e-8  # one less the cosine between planes that are one; chosen: unseen
 _RINGS = 3  # so many rings of facets round a bent one tell nothing either
-_UNEVEN = 0.5  # of its thickness: one that is farther from a plane over its sheet is uneven
-_TIP = 0.5  # of the thickness where a sheet goes on from: at a sharp edge one with less ends in it
-_INTO = 0.1  # of the way to the middle of its triangles: from there a vertex looks for its walls
-_PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
+_UNEVEN = 0.5  # of its thickness: one that is farther from a plane over its sheet is uneven; chosen: unseen
+_TIP = 0.5  # of the thickness where a sheet goes on from: at a sharp edge one with less ends in it; chosen: unseen
+_INTO = 0.1  # of the way to the middle of its triangles: from there a vertex looks for its walls; chosen: unseen
+_PLANE = 0.02  # planes whose directions differ by less do not determine where they meet; chosen: midsurface
 
 
 @dataclass(frozen=True, eq=False)

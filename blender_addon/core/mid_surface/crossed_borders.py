@@ -10,8 +10,8 @@ from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 from .sheet_faces import TRIFLE, SheetFaces
 
-_NOTHING = 1e-9  # of all area: so small a polygon has none
-_TOUCHES = 2.0**-16  # of the extent: the corners of a polygon are so far from its plane at most
+_NOTHING = 1e-9  # of all area: so small a polygon has none; derived: rounding
+_TOUCHES = 2.0**-16  # of the extent: corners are so far from their plane; derived: kNoDistance
 
 
 def crossings(faces: SheetFaces) -> tuple[Floats, Ints]:

@@ -19,8 +19,8 @@ from ..united import united
 from .carried_sheets import CarriedSheets
 from .sheet_faces import TRIFLE
 
-_MOSTLY = 0.95  # of the volume, in thickness, too, has to be sheet, so that no more than bridges is missing
-_ALONG = 0.999  # the cosine between normals that may be those of one flat face
+_MOSTLY = 0.95  # of the volume has to be sheet, so that no more than bridges is missing; measured: lab/mid_surface.md
+_ALONG = 0.999  # the cosine between normals that may be those of one flat face; chosen: unseen
 
 
 def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:

@@ -16,7 +16,7 @@ from .sheet_faces import ROUNDING, SheetFaces
 # Places, (k, 4) rows of these with -1 where a face is a triangle, and the sheets of the faces.
 _Made = tuple[Floats, Longs, Ints]
 
-_STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's
+_STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's; chosen: unseen
 
 
 def even_quads(faces: SheetFaces, length: float, progress: Progress | None = None) -> SheetFaces:

@@ -42,17 +42,13 @@ from .thick_faces import ThickFaces, thick_faces
 from .thick_joints import joined_by_thick_parts
 from .thin_sheets import ThinSheets, thin_sheets
 
-_HALF_OF_WALL = 1.0  # the feature size between parallel walls, in feature sizes
-_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
-_STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
-_SAME = 1e-7  # of the diagonal: vertices so close are one
-_PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
-_CURVED = (
-    1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
-)
+_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average; chosen: unseen
+_SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's rounding
+_PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
+_CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
-_MOST = 0.99  # where less of the volume is sheet, a warning says so
-_DOUBLED = 1.05  # where they have more than this of it, one does, too
+_MOST = 0.99  # where less of the volume is sheet, a warning says so; chosen: unseen
+_DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,10 +134,11 @@ def mid_surface(
             "Expected faces that bound a solid, found points alone; reconstruct a surface first"
         )
     shape = outward_shape(shape)
-    # A sheet lies in the middle of its walls whatever the spacing, so no hole need be smaller than half of a wall.
+    # A sheet lies in the middle of its walls whatever the spacing, so no hole need be smaller than half of a wall,
+    # the feature size there.
     settings = replace(
         settings,
-        epsilon=_HALF_OF_WALL,
+        epsilon=1.0,
         form=Form.CLEAN,
         mesh=Mesh.VORONOI,
         crisp=True,
@@ -397,5 +394,5 @@ def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
     np.add.at(whole, row, doubled[:, None])
     slopes = sums / np.where(whole > 0.0, whole, np.inf)[:, None]
     steep = np.sqrt(dot(slopes, slopes))
-    slopes *= (_STEEPEST / np.maximum(steep, _STEEPEST))[:, None]
+    slopes *= (1.0 / np.maximum(steep, 1.0))[:, None]  # where walls face each other it is less
     return slopes[row.ravel()]

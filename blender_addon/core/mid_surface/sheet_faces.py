@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays import Floats, Ints, Longs
 from ..axis.polygon_triangles import polygon_triangles
 
-TRIFLE = 1e-3  # of a thickness or an area: so small a share counts for nothing
-ROUNDING = 1e-6  # of a length: so small a share has no direction, and is no difference
+TRIFLE = 1e-3  # of a thickness or an area: so small a share counts for nothing; chosen: unseen
+ROUNDING = 1e-6  # of a length: so small a share is none; derived: rounding
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,14 +21,12 @@ from .sheet_faces import ROUNDING
 from .sheet_walls import TOUCHES, Walls, reflex_distances
 from .thin_sheets import ThinSheets
 
-_REACH = 4.0  # so many radii away the wall at a rim is looked for
-_STEPS = (
-    2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
-)
-_ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
-_LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
-_SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least
-_LOST = 0.1  # in radii: so near to the wall of an edge is a place beside the corner of two walls
+_REACH = 4.0  # so many radii away the wall at a rim is looked for; chosen: unseen
+_STEPS = 2.0  # times as far as beside it the wall ahead of an edge may be; chosen: midsurface
+_ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall; chosen: midsurface
+_LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least; chosen: unseen
+_SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least; chosen: midsurface
+_LOST = 0.1  # in radii: so near to the wall of an edge is a place beside the corner of two walls; chosen: unseen
 _NOTHING, _AT_WALL, _CORNER = range(3)  # what an edge ends at: no wall, a wall ahead, a reflex edge
 _LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind tell nothing
 

@@ -35,10 +35,10 @@ from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 from .topology_loop import are_close, closed, closes
 
-_WRAPPING = 0.4  # of the analysis
-_PREPARING = 0.3  # of the analysis of points without faces
+_WRAPPING = 0.4  # of the analysis; work: progress
+_PREPARING = 0.3  # of the analysis of points without faces; work: progress
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
-_SPENT = 0.97
+_SPENT = 0.97  # work: progress
 
 
 def begin(

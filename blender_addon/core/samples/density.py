@@ -21,13 +21,13 @@ from ..shape.nearness import near
 from ..small_matrices import length_of
 
 # No new pass is needed while at most this share of the samples is too sparse for the theorem.
-DENSE_ENOUGH = 0.1
+DENSE_ENOUGH = 0.1  # chosen: midsurface
 # Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as
 # much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
-HOLE = 0.85  # the radius of the largest holes between even samples, in spacings
+HOLE = 0.85  # spacings: the radius of the largest holes between even samples; measured: stage_sampling.md
 _PLACES = 5  # the number of worst places that are reported
-_APART = 0.05  # the smallest distance between them, as a share of the diagonal
+_APART = 0.05  # the smallest distance between them, as a share of the diagonal; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,29 +27,25 @@ from .effort import EFFORT
 from .sample_spacing import next_amount
 from .worst_doubt import WorstDoubt, worst_doubt
 
-_LEVELS = 0.9  # the share of all work that ends with the first hierarchy
+_LEVELS = 0.9  # the share of all work that ends with the first hierarchy; work: progress
 _PASSES = 10  # the most passes with pairs
-_OF_REST = (
-    0.3  # the share of the work left that a pass is shown as: nobody knows how many there will be
-)
-_REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings
+_OF_REST = 0.3  # of the work left is shown as a pass: nobody knows their number; work: progress
+_REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings; chosen: unseen
 # The spacing at a doubt is this share of its gap, but not more and not less than these shares of the spacing there.
-_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
+_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25  # chosen: unseen
 # Where a Voronoi edge passes the faces in a gap below this share of the way to its samples, it may touch a bulge.
-_WIDE = 0.2
+_WIDE = 0.2  # chosen: unseen
 # Walls that are missed on more than this share of the area are missed as a whole.
-_AS_A_WHOLE = 0.2
+_AS_A_WHOLE = 0.2  # chosen: unseen
 # So large a share of the samples may be buried, for foils are too thin to tell; and while spacings become smaller.
-_BURIED, _FEW_BURIED = 0.01, 0.005
+_BURIED, _FEW_BURIED = 0.01, 0.005  # chosen: unseen
 # Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
 # on the way, as where the spacings of both sides of a wall become small one after the other; but a pass that is no
 # better than the one before may be followed by no more than so many others of this kind.
 _WORSE, _MANY, _STALLED = 10, 100, 2
-# A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
-_MORE = 1.05
 # Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid;
 # the least angle of the option is one degree.
-_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)
+_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)  # chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +186,7 @@ def _best(
             best, found = trial, number
         again = number == 1 and _is_worth_more(request, samples)
         left = request.settings.budget - spent
-        if not (trial.differences or again) or left < _MORE * len(samples.points):
+        if not (trial.differences or again) or left <= len(samples.points):
             break
         stalled = stalled + 1 if number > 2 and trial.differences >= last.differences else 0
         if stalled > _STALLED or _is_hopeless(trial, last, number):

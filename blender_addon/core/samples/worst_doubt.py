@@ -15,7 +15,7 @@ from ..small_matrices import placed
 from .analysed import AnalysedSamples
 
 _LOOKED_AT = 500  # doubts are compared with each other, so of many an even selection is
-_AROUND = 4.0  # doubts within this number of spacings belong together
+_AROUND = 4.0  # doubts within this number of spacings belong together; chosen: unseen
 
 
 @dataclass(frozen=True)

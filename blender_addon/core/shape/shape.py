@@ -18,7 +18,7 @@ from .triangles import unit_normals
 
 # The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
 # looked at, in roundings.
-_FOLDED, _OFF = -0.99, 4
+_FOLDED, _OFF = -0.99, 4  # chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from ..shape.triangles import unit_normals
 from ..small_matrices import length_of
 from ..united import united
 
-_INSIDE = 0.5  # of a winding number, from which on a place is inside
+_INSIDE = 0.5  # of a winding number, from which on a place is inside; derived: the winding number of the surface
 _LOOKED_AT = 64  # faces of a patch, at most
 
 

@@ -19,10 +19,10 @@ from ..small_matrices import dot
 from .inscribe import inscribe
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
-_AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is
-_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
+_AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is; derived: rounding
+_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is from one place; derived: rounding
 _HALVED = 10  # so often the range of a move is halved
-_ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides
+_ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides; chosen: skeleton
 
 
 def lead_through_middle(net: Net, depth: Depth) -> None:

@@ -10,16 +10,15 @@ namespace {
 
 constexpr int32_t kLeafOfWalls = 4;
 constexpr int kMostShrinkings = 32;
-constexpr double kUpright =
-    0.94;  // the cosine between a normal and the way to the centre, at least
+constexpr double kUpright = 0.94;  // cosine of a normal and the way to the centre; chosen: unseen
 constexpr int kMostSteps = 12;
-constexpr double kPrecise = 1e-12;  // in barycentric coordinates
+constexpr double kPrecise = 1e-12;  // in barycentric coordinates; derived: rounding
 // A ball touches where it is not cut deeper than by this share of its radius.
-constexpr double kTouching = 1e-9;
+constexpr double kTouching = 1e-9;  // derived: rounding
 // Walls closer than this share of the reach meet there.
-constexpr double kMeeting = 1e-8;
+constexpr double kMeeting = 1e-8;  // derived: rounding
 constexpr size_t kMostInColumn = 32;
-constexpr double kTight = 0.5;  // of the reach, up to which places are tight
+constexpr double kTight = 0.5;  // of the reach, up to which places are tight; chosen: unseen
 
 }  // namespace
 

@@ -12,8 +12,8 @@ namespace medial {
 namespace {
 
 constexpr size_t kFew = 12;
-constexpr double kAlone = 4;  // times the distance that is usual among the neighbours
-constexpr double kEmpty = 0.8 * std::numbers::pi;  // a wider sector without neighbours is a border
+constexpr double kAlone = 4;  // times the distance usual among neighbours; chosen: unseen
+constexpr double kEmpty = 0.8 * std::numbers::pi;  // a wider empty sector: a border; chosen: unseen
 constexpr int64_t kLooked = 4000;  // determine a share of a percent to a fifth of it
 constexpr size_t kAround = 24;
 

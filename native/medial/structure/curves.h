@@ -7,7 +7,7 @@
 namespace medial {
 
 // Shorter curves count for nothing, and places that are closer are one, in spacings.
-inline constexpr double kShortCurve = 1.5;
+inline constexpr double kShortCurve = 1.5;  // chosen: axis
 
 struct AxisCurve {
   CurveKind kind = CurveKind::none;

@@ -8,9 +8,9 @@ namespace {
 
 // All lengths are in holes: the largest circumradius in the umbrella of a sample, about 0.6 of the
 // distance between samples of blue noise.
-constexpr double kOnCrease = 1e-6;  // from a sample that lies on a crease to that crease
-constexpr double kNearSamples = 6;  // from a place of the faces to a sample, at most
-constexpr double kReach = 1.5;      // from where two tangent planes meet to a crease
+constexpr double kOnCrease = 1e-6;  // from a sample on a crease to that crease; derived: rounding
+constexpr double kNearSamples = 6;  // from a place of the faces to a sample; chosen: axis
+constexpr double kReach = 1.5;  // from where two tangent planes meet to a crease; chosen: unseen
 
 // Returns the point nearest to `at` in which two planes meet.
 Vec3 apex(const Vec3& p, const Vec3& n, const Vec3& q, const Vec3& m, const Vec3& at) {

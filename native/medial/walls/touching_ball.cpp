@@ -6,7 +6,7 @@ namespace {
 
 constexpr int kBallSteps = 16;
 constexpr int kPatience = 4;         // steps after which each has to halve the inequality
-constexpr double kRounding = 2e-14;  // of the radius
+constexpr double kRounding = 2e-14;  // of the radius; derived: 100 roundings of 2e-16
 
 struct Feet {
   std::array<Foot, kMostContacts> foot;

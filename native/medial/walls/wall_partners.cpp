@@ -7,7 +7,7 @@ namespace medial {
 namespace {
 
 // How far one sample is below the wall of the other one, in thicknesses.
-constexpr double kLeastDepth = 0.25, kMostDepth = 2;
+constexpr double kLeastDepth = 0.25, kMostDepth = 2;  // chosen: unseen
 
 }  // namespace
 
