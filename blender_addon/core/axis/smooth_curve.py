@@ -27,7 +27,7 @@ from .rows_of_axis import OF_VERTICES, with_rows
 Depth = Callable[[Floats], Floats]
 Inside = Callable[[Floats], Flags]
 
-FARTHEST = 0.5  # of its radius: a place stays in its ball; chosen: axis, skeleton
+FARTHEST = 0.5  # of its radius: a place stays in its ball; chosen: axis
 _NEAR = 0.25  # this many steps before and after a fork there is no place; chosen: axis
 _FEWEST = 3  # a wire with a vertex between its ends has this many places there, so no two lines share their ends only
 _FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves; chosen: axis

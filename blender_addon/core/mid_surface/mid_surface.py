@@ -48,7 +48,7 @@ _PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived:
 _CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 0.99  # where less of the volume is sheet, a warning says so; chosen: unseen
-_DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: unseen
+_DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: midsurface
 
 
 @dataclass(frozen=True, eq=False)

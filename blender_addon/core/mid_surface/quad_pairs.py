@@ -11,7 +11,7 @@ from ..arrays import Floats, Ints, Longs
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 
-LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees; chosen: unseen
+LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees; chosen: midsurface
 _FLAT = 0.9  # the cosine between the two triangles, at least; chosen: unseen
 
 

@@ -21,7 +21,7 @@ from .sheet_faces import ROUNDING
 from .sheet_walls import TOUCHES, Walls, reflex_distances
 from .thin_sheets import ThinSheets
 
-_REACH = 4.0  # so many radii away the wall at a rim is looked for; chosen: unseen
+_REACH = 4.0  # so many radii away the wall at a rim is looked for; chosen: midsurface
 _STEPS = 2.0  # times as far as beside it the wall ahead of an edge may be; chosen: midsurface
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall; chosen: midsurface
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least; chosen: unseen

@@ -25,7 +25,7 @@ _LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more;
 _MATES = 1.4  # more pairs of one height: views do not fit; measured: lab/scans.md, pairs
 _WALLS = (0.7, 1.7)  # more noise in spacings with a smaller kurtosis is two walls of a thin part
 _ENDS = 0.02  # a larger share of points at which the surface ends is an opening, or a sheet; chosen: unseen
-_THIN = 5.0  # walls of fewer standard deviations of the noise become one; chosen: unseen
+_THIN = 5.0  # walls of fewer standard deviations of the noise become one; chosen: axis
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,7 +26,7 @@ _WANTED = 2.0  # chosen: axis
 _MISSED = 0.8  # measured: stage_sampling.md
 # Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
 # their distance; finer samples get this share.
-_FOLLOWED, _FINER = 0.4, 0.25  # chosen: unseen
+_FOLLOWED, _FINER = 0.4, 0.25  # chosen: axis
 # A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01  # chosen: unseen
 # A smooth surface that leaves its flat faces by more than this share of the distance of walls, or of samples, is none

@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-constexpr double kAccidentBall = 3.5;   // the same where it may be no crease; chosen: unseen
+constexpr double kAccidentBall = 3.5;   // the same where it may be no crease; chosen: axis
 constexpr double kOneDirection = 0.85;  // the cosine between creases of one way; chosen: unseen
 
 Vec3 direction(const SamplesOnFaces& samples, int32_t edge) {

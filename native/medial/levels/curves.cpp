@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kSmoothings = 20, kFits = 3;
 // share of the radius; after a smaller move another fit changes about its square
-constexpr double kSettled = 0.002;  // chosen: unseen
+constexpr double kSettled = 0.002;  // chosen: axis
 // share of the radius; smaller errors of a straight axis need no other fit
-constexpr double kStraight = 2e-5;    // chosen: unseen
+constexpr double kStraight = 2e-5;    // chosen: axis
 constexpr double kStep = 0.25;        // between new vertices, in spacings; chosen: axis
 constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings; chosen: axis
 constexpr size_t kNeighbours = 12;    // samples that determine the spacing

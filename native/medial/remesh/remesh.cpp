@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
 constexpr double kCrumpled = 0.5;       // the cosine between facets that are not flat; chosen: axis
-constexpr double kFewCollapses = 0.01;  // of the vertices end the passes; chosen: unseen
+constexpr double kFewCollapses = 0.01;  // of the vertices end the passes; chosen: axis
 constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
 constexpr double kStep = 0.5;  // of the way to there, which levels a zigzag at once; chosen: axis
 // A step back, a little longer, keeps lines from shrinking where they bend (Taubin 1995).

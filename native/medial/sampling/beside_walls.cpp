@@ -9,14 +9,14 @@ namespace {
 // The largest flat part at a vertex may be a wall beside triangles that are so many times smaller.
 // It is one beside a bevel if it is so many times as wide as these reach from it, or reaches so
 // many times as far from their edge. A ring on top of a tube is as wide as the next rows.
-constexpr double kDominant = 8, kWide = 2;  // chosen: unseen
+constexpr double kDominant = 8, kWide = 2;  // chosen: axis
 // Beside a bevel the turn from a wall to the bevel is no larger than those of the bevel; beside the
 // narrow rows of a smooth surface it is as large as the wall is wide. Edges along the same bevel
 // are parallel up to this cosine.
-constexpr double kTurn = 2, kAlong = 0.9;  // chosen: unseen
+constexpr double kTurn = 2, kAlong = 0.9;  // chosen: thickness
 // The rows of a fillet are equal, and turn twice as far from one to the next as from the wall to
 // the first one. So a wall beside them need not be much larger than a row.
-constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;  // chosen: unseen
+constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;  // chosen: thickness
 // A strip of a fillet ends beside the rows of a sphere, which may be hardly smaller. It is straight
 // if it is so many times as large as these, reaches as many times as far from their edge, and turns
 // no more than they do.

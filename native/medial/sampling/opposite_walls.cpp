@@ -18,7 +18,7 @@ constexpr double kTouching = 1e-9;  // derived: rounding
 // Walls closer than this share of the reach meet there.
 constexpr double kMeeting = 1e-8;  // derived: rounding
 constexpr size_t kMostInColumn = 32;
-constexpr double kTight = 0.5;  // of the reach, up to which places are tight; chosen: unseen
+constexpr double kTight = 0.5;  // of the reach, up to which places are tight; chosen: axis
 
 }  // namespace
 

@@ -509,7 +509,7 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
 // Returns the largest curvature across the sides of a triangle: the turn of the normals over the
 // way between the middles of the triangles.
 double bend_of(const Model& model, int32_t triangle) {
-  constexpr double kMiddle = 0.4;  // of the heights over the common side; chosen: unseen
+  constexpr double kMiddle = 0.4;  // of the heights over the common side; chosen: axis
   const auto &points = model.mesh.points, &normal = model.mesh.normal;
   const auto& triangles = model.mesh.triangles;
   const Triangle& t = triangles[triangle];

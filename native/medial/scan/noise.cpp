@@ -17,7 +17,7 @@ constexpr double kPlateau = 1.2;  // less growth is no curvature; measured: lab/
 // that each has.
 constexpr double kNearest = 0.85;  // measured: even samples
 constexpr double kLeast = 0.01;    // spacings: less is rounding, not noise; chosen: unseen
-constexpr double kSeen = 0.8;      // of the residual that small neighbourhoods show; chosen: unseen
+constexpr double kSeen = 0.8;      // of the residual that small neighbourhoods show; chosen: axis
 // Pairs of the 24 nearest points are compared by their heights over the quadric of 54.
 constexpr size_t kPaired = 2, kUnder = 4;  // among the sizes
 constexpr double kSame = 0.05;  // deviations between points of the same height; chosen: unseen
