@@ -131,7 +131,7 @@ def test_a_pit_through_a_wall_is_its_minimum():
 
 def test_faces_that_cross_are_no_thin_wall():
     """Both planes are 0.05 apart where neither of them bounds the solid; the thinnest wall has 0.21."""
-    mesh = joined(block(1, 1, 0.6, (0.5, 0.5, 0.3)), block(0.55, 0.6, 0.8, (1.225, 1.2, 0.8)))
+    mesh = join(block(1, 1, 0.6, (0.5, 0.5, 0.3)), block(0.55, 0.6, 0.8, (1.225, 1.2, 0.8)))
     found = measure(mesh, Settings(samples=4000))
     assert found.surface.between_walls is None and 0.15 < found.minimum < 0.22
 

@@ -23,7 +23,7 @@ SCALE = (
     (0.75, (1.0, 0.3, 0.05)),
     (1.0, (1.0, 0.81, 0.07)),
 )
-_GOLDEN = (5**0.5 - 1.0) / 2.0  # multiples of it are spread evenly over a circle
+_GOLDEN = (5**0.5 - 1.0) / 2.0  # multiples are spread evenly over a circle; work: shown
 UNKNOWN = (0.25, 0.25, 0.25)  # the colour of NaN
 
 

@@ -26,7 +26,7 @@ from .medial_axis import MedialAxis
 from .topology import topology_sentence
 
 # The share of the work before the hierarchy begins.
-_ANALYSIS = 0.6
+ANALYSIS = 0.6  # work: progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +137,7 @@ def compute_axis(
     )
     if form is Form.CURVE:
         limit = limit.used(output=CURVE)
-    share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
+    share = 1.0 if form is Form.PUBLISHED else ANALYSIS
     begun = begin(shape, settings, progress, limit, share, levels=form is not Form.PUBLISHED)
     shape, chosen = begun.shape, begun.chosen
     wraps = settings.sides is SidesFrom.WRAP

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..arrays import Flags, Floats
 
-_CLEAR = 3.0  # a gap is clear where what stays is this many times as thick as what goes
-_SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes
+_CLEAR = 3.0  # a clear gap: what stays is so many times as thick as what goes; chosen: unseen
+_SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes; chosen: unseen
 
 
 def gap_of(hierarchy: Any, area: Floats) -> float | None:

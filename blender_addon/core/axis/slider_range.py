@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats
 from .directions import facet_areas
 
-_BEYOND = 1.02  # this multiple of the largest length takes away everything
+_BEYOND = 1.02  # this multiple of the largest length takes away everything; work: shown
 _STEPS = 256  # the number of parts into which a share is divided
 
 

@@ -27,10 +27,10 @@ from .rows_of_axis import OF_VERTICES, with_rows
 Depth = Callable[[Floats], Floats]
 Inside = Callable[[Floats], Flags]
 
-_FARTHEST = 0.5  # a place moves by at most this share of the radius of its ball
-_NEAR = 0.25  # this many steps before and after a fork there is no place
+FARTHEST = 0.5  # of its radius: a place stays in its ball; chosen: axis
+_NEAR = 0.25  # this many steps before and after a fork there is no place; chosen: axis
 _FEWEST = 3  # a wire with a vertex between its ends has this many places there, so no two lines share their ends only
-_FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves
+_FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it moves; chosen: axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +296,7 @@ def _moved(table: Floats, wanted: Floats, depth: Depth) -> Floats:
     ball = np.minimum(before, radius)
     way = (wanted - places) / np.where(ball > 0.0, ball, np.inf)[:, None]
     far = np.sqrt(dot(way, way))
-    share = ball * _FARTHEST / np.maximum(far, _FARTHEST)
+    share = ball * FARTHEST / np.maximum(far, FARTHEST)
     moved = places + share[:, None] * way
     return np.column_stack((moved, np.maximum(radius + depth(moved) - before, 0.0)))
 

@@ -35,10 +35,10 @@ from .tight_capsules import Capsules, tight_capsules
 
 # The shares of the work that are done before the hierarchy begins, before the balls are chosen, and before the segments
 # have capsules.
-_ANALYSIS, _AXIS, _MANY, _SEGMENTS = 0.5, 0.8, 0.85, 0.95
+_ANALYSIS, _AXIS, _MANY, _SEGMENTS = 0.5, 0.8, 0.85, 0.95  # work: progress
 # Capsules begin as so many times as many more balls, at most so many more.
 _TIMES, _MOST_MORE = 3, 768
-_BOUND = 1.5  # of what these leave bare: no place on the surface shall be farther from the capsules
+_BOUND = 1.5  # of what these leave bare: no place on the surface shall be farther from the capsules; chosen: balls
 _INSIDE, _ON_SURFACE = 20_000, 20_000  # places that tell what a merge loses
 
 

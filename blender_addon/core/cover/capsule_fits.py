@@ -12,8 +12,8 @@ from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
 
 _STEPS = 32  # between places of a segment whose depths are looked at
-_SMALLER = 1 / 256  # of the larger radius: capsule_fit.cpp may draw a capsule in by so much
-_LARGER = 1.05  # than a ball at its end: as large, it may become that ball, or a sliver
+_SMALLER = 1 / 256  # of the larger radius: a capsule may be drawn in so far; derived: kOfRadius
+_LARGER = 1.05  # than a ball at its end: as large, it may become that ball; chosen: unseen
 _MANY = 4096  # segments at once
 
 

@@ -21,9 +21,9 @@ Proposal = tuple[tuple[int, int], Element | None, Effect]
 
 _NEAR = 10  # elements with which one may merge
 _IN_BOX = 1_000_000  # places of a lattice that are looked at, at most
-_BEYOND = 2.0  # times the bound: if places are farther, another bound is tried
-_FIRST = 16.0  # the bound is this part of the distance at least, should the first one be 0
-_LONGER = 1.25
+_BEYOND = 2.0  # times the bound: if places are farther, another bound is tried; chosen: unseen
+_FIRST = 16.0  # the bound is this part of the distance at least, should the first one be 0; chosen: unseen
+_LONGER = 1.25  # chosen: unseen
 _NEWTON = 12  # steps; each doubles the digits
 _ROUND = 16  # a round of proposals follows when one of so many elements is new
 

@@ -16,7 +16,7 @@ from .capsule_segments import cube_root, evenly, lattice
 _ROUNDS = 8  # of places that go to the capsule nearest to them, at most
 _MOST_DIVIDED = 16  # more capsules are at least as tight where balls were merged
 _NEAR = 6  # capsules with which one may be united
-_BORDER = 1 / 32  # of the radius: borders between two capsules move by so much at least
+_BORDER = 1 / 32  # of the radius: borders between capsules move so much; chosen: unseen
 _EXCHANGES = 3  # of places between two halves
 _DIVIDED = 4_000  # places that tell where to divide
 _LATTICE = 20_000  # places on which the volume of a union is counted

@@ -13,7 +13,7 @@ from ..shape.shape import Shape
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 
-_ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
+ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal; derived: rounding
 
 
 class Depth:
@@ -55,7 +55,7 @@ def buried_faces(points: Floats, triangles: Ints) -> Flags:
     normals, _ = unit_normals(corners)
     middle = corners.mean(axis=1)
     looks = [middle, *(0.1 * middle + 0.9 * corners[:, corner] for corner in range(3))]
-    offset = _ASIDE * length_of(np.ptp(points, axis=0))
+    offset = ASIDE * length_of(np.ptp(points, axis=0))
     with native.own_errors() as module:
         found = module.buried(
             np.concatenate(looks), np.tile(normals, (4, 1)), offset, points, triangles

@@ -17,10 +17,8 @@ from ..arrays import Floats, Longs
 from ..small_matrices import dot, length_of
 from .net import Net
 
-_AS_FAR = (
-    0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
-)
-_LAST = 2.0  # the end of a limb is this many radii long
+_AS_FAR = 0.25  # of its radius: a ball less short reaches farthest; chosen: skeleton
+LAST = 2.0  # radii: the end of a limb, and closer ends mean its tip; chosen: skeleton
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +117,7 @@ def _end(net: Net, tip: int, owner: Longs, balls: Balls) -> None:
 def _start_of_end(net: Net, chain: list[int]) -> int:
     """Return the last position on a chain that is more than two of its radii away from the tip, or 0."""
     away = np.linalg.norm(net.points[chain[:-1]] - net.points[chain[-1]], axis=1)
-    far = np.flatnonzero(away > _LAST * net.radius[chain[:-1]])
+    far = np.flatnonzero(away > LAST * net.radius[chain[:-1]])
     return int(far[-1]) if len(far) else 0
 
 

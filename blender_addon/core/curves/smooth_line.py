@@ -19,7 +19,7 @@ from ..small_matrices import dot
 
 _PER_RADIUS = 8  # a mean radius has this many steps
 _LEAST, _MOST = 16, 16_384  # a line has this many
-_HALVED = 0.7  # waves of this many circumferences lose half their height
+_HALVED = 0.7  # waves of this many circumferences lose half their height; chosen: skeleton
 _CLIPPED = 2.0, 16.0  # that many radii count as this many steps
 _BEYOND = 64  # this many steps beyond an end have an influence
 _FOURTH = 1.0, -4.0, 6.0, -4.0, 1.0

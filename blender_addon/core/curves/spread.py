@@ -12,7 +12,7 @@ from ..small_matrices import dot
 from ..united import united
 
 # The front advances by this many mean edge lengths at a time; small steps reach few vertices twice.
-_STEP = 2.0
+_STEP = 2.0  # work: time
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,9 +15,7 @@ from ..arrays import Floats
 from ..small_matrices import dot, times
 from .smooth_line import at_marks, marks_of
 
-_STRAIGHT = (
-    0.6  # the cosine of the largest turn at a fork that is one line; three equal angles are none
-)
+_STRAIGHT = 0.6  # cosine of a line's largest turn; three equal angles are none; chosen: axis
 
 
 @dataclass(frozen=True)

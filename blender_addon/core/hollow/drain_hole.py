@@ -13,11 +13,11 @@ from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
 from .hollow import Hollow
 
-_LEVEL = 0.05  # of the wall: vertices that are less above the lowest are as low
-_STEP = 1e-3  # of the wall: differences over so much tell the shortest way
-_LONGEST = 4.0  # walls: so far a way out is looked for
+_LEVEL = 0.05  # of the wall: vertices that are less above the lowest are as low; chosen: unseen
+_STEP = 1e-3  # of the wall: differences over so much tell the shortest way; derived: rounding
+_LONGEST = 4.0  # walls: so far a way out is looked for; chosen: unseen
 _PARTS = 256  # of that way
-_CLEAR = 0.1  # so much slope at least the distance has where a shortest way is told
+_CLEAR = 0.1  # so much slope at least the distance has where a shortest way is told; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

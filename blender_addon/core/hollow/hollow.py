@@ -23,13 +23,13 @@ from ..small_matrices import dot, length_of
 from ..united import united
 from .offset_surface import COARSEST, OffsetSurface, offset_surface
 
-_WALL = 0.03  # of the diagonal: the wall where none is asked for
-_FINEST = 0.25  # of the wall: the step of the lattice where nothing else is asked for
+_WALL = 0.03  # of the diagonal: the wall where none is asked for; chosen: unseen
+_FINEST = 0.25  # of the wall: the step where nothing else is asked for; chosen: unseen
 # The step grows until the faces have the area of so many of its squares, which take about ten seconds.
 _SQUARES = 75_000
 _MOST = 2_000_000  # so many are made where a step is asked for: each gives about twelve triangles
-_ROUNDED_UP = 1.05  # times it, a length with two digits is not less than it was
-_BOUNDING = 0.999  # where less of the faces bounds the solid, a warning says so
+_ROUNDED_UP = 1.05  # times it, a length with two digits is not less; derived: half of a digit
+_BOUNDING = 0.999  # where less of the faces bounds the solid, a warning says so; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

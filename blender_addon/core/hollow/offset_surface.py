@@ -21,9 +21,9 @@ from ..united import united
 
 Field = Callable[[Floats], Floats]
 
-COARSEST = 0.5  # the step is at most this share of the distance, so that no tetrahedron reaches from wall to surface
-_APART = 1e-3  # vertices keep this share of their edge to its ends, so that no two coincide
-_CLOSE = 1e-7  # of the distance: so near to it a vertex is at it
+COARSEST = 0.5  # of the distance, at most; derived: no tetrahedron reaches from wall to surface
+_APART = 1e-3  # vertices keep this share of their edge to its ends, so that no two coincide; derived: rounding
+_CLOSE = 1e-7  # of the distance: so near to it a vertex is at it; derived: a float's rounding
 _ROUNDS = 40  # each halves an edge at least every second time
 _SHIFT = (
     0.381966,

@@ -14,8 +14,8 @@ from ..arrays import Flags, Floats
 from ..machine.native import own_errors
 from .sheet_walls import Walls
 
-_REACH = 2.0  # so many radii away both walls are looked for; they are two apart at most
-_LIKE = 0.25  # in radii: walls whose distance differs by more from the expected one are others
+_REACH = 2.0  # so many radii away both walls are looked for; they are two apart at most; derived: two radii, and none
+_LIKE = 0.25  # in radii: walls whose distance differs by more from the expected one are others; chosen: unseen
 
 
 def between_walls(

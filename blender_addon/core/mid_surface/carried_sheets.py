@@ -23,14 +23,14 @@ from .thin_sheets import ThinSheets
 from .unfolded_sheets import unfolded
 
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
-_BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least
-_EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal
-_FLAT = 2e-8  # one less the cosine between planes that are one
+_BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least; chosen: unseen
+_EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal; chosen: unseen
+_FLAT = 2e-8  # one less the cosine between planes that are one; chosen: unseen
 _RINGS = 3  # so many rings of facets round a bent one tell nothing either
-_UNEVEN = 0.5  # of its thickness: one that is farther from a plane over its sheet is uneven
-_TIP = 0.5  # of the thickness where a sheet goes on from: at a sharp edge one with less ends in it
-_INTO = 0.1  # of the way to the middle of its triangles: from there a vertex looks for its walls
-_PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
+_UNEVEN = 0.5  # of its thickness: one that is farther from a plane over its sheet is uneven; chosen: unseen
+_TIP = 0.5  # of the thickness where a sheet goes on from: at a sharp edge one with less ends in it; chosen: unseen
+_INTO = 0.1  # of the way to the middle of its triangles: from there a vertex looks for its walls; chosen: unseen
+_PLANE = 0.02  # planes whose directions differ by less do not determine where they meet; chosen: midsurface
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,12 +123,11 @@ def _doubled_areas(sheets: ThinSheets) -> Floats:
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
-def _are_curved(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
-    """(parts,) the sheets whose clear triangles do not have one normal."""
-    weight = np.where(clear, area, 0.0)
-    total = np.zeros((sheets.parts, 3))
-    np.add.at(total, sheets.part, weight[:, None] * sheets.normals)
-    whole = np.bincount(sheets.part, weight, sheets.parts)
+def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
+    """(parts,) the sheets without one normal, given (t, 3) normals that are as long as triangles are large."""
+    total = np.zeros((parts, 3))
+    np.add.at(total, part, vectors)
+    whole = np.bincount(part, np.linalg.norm(vectors, axis=1), parts)
     return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
 
 
@@ -163,7 +162,8 @@ class _Planes:
         tilted = _tilted(sheets, unclear, area)
         clear = _clear(sheets, unclear) & ~tilted
         self._take(sheets, part, clear, area)
-        curved = _are_curved(sheets, clear, area)
+        vectors = np.where(clear, area, 0.0)[:, None] * sheets.normals
+        curved = are_curved(vectors, sheets.part, sheets.parts)
         if curved.any():
             # Far from its facets the plane of a curved sheet is another one. A facet tells its slope
             # as a whole, so one with a corner at an edge, however far that is, tells nothing.

@@ -8,11 +8,10 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
-from .sheet_faces import SheetFaces
+from .sheet_faces import TRIFLE, SheetFaces
 
-_PLAIN = 1e-3  # triangles of a polygon with this share more of area than they enclose overlap
-_NOTHING = 1e-9  # of all area: so small a polygon has none
-_TOUCHES = 2.0**-16  # of the extent: the corners of a polygon are so far from its plane at most
+_NOTHING = 1e-9  # of all area: so small a polygon has none; derived: rounding
+_TOUCHES = 2.0**-16  # of the extent: corners are so far from their plane; derived: kNoDistance
 
 
 def crossings(faces: SheetFaces) -> tuple[Floats, Ints]:
@@ -50,7 +49,7 @@ def _overlap(faces: SheetFaces, normals: Floats, doubled: Floats) -> Flags:
     np.add.at(enclosed, faces.of, normals * doubled[:, None])
     whole = np.bincount(faces.of, doubled, len(faces.part))
     beyond = whole - np.linalg.norm(enclosed, axis=1)
-    return np.asarray((beyond > _PLAIN * whole) & (whole > _NOTHING * whole.sum()))
+    return np.asarray((beyond > TRIFLE * whole) & (whole > _NOTHING * whole.sum()))
 
 
 def _crossings_of(ring: Floats, flat: Floats, step: float, touching: bool) -> Floats:

@@ -17,10 +17,10 @@ from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import first_rows
 from ..united import united
 from .carried_sheets import CarriedSheets
+from .sheet_faces import TRIFLE
 
-_MOSTLY = 0.95  # of the volume, in thickness, too, has to be sheet, so that no more than bridges is missing
-_ALONG = 0.999  # the cosine between normals that may be those of one flat face
-_FLAT = 1e-3  # of the thickness: so flat are flat faces; of their area: so much may be amiss
+_MOSTLY = 0.95  # of the volume has to be sheet, so that no more than bridges is missing; measured: lab/mid_surface.md
+_ALONG = 0.999  # the cosine between normals that may be those of one flat face; chosen: unseen
 
 
 def cut_out_plate(shape: Shape, sheets: CarriedSheets) -> CarriedSheets | None:
@@ -54,7 +54,7 @@ def _plate(shape: Shape, across: Floats, thickness: float) -> CarriedSheets | No
     if not len(top) or not len(bottom):
         return None
     high, low = float(top.mean()), float(bottom.mean())
-    within = _FLAT * (high - low)
+    within = TRIFLE * (high - low)
     if not _MOSTLY * thickness <= high - low <= thickness / _MOSTLY:
         return None  # the sheets are walls that stand upright
     if max(np.ptp(top), np.ptp(bottom)) > within or not _is_plate(shape, across, flat, high - low):
@@ -77,7 +77,7 @@ def _is_plate(shape: Shape, across: Floats, flat: Floats, thickness: float) -> b
     seen = 0.5 * doubled * np.abs(dot(normals, across[None]))
     top, bottom, others = (float(seen[flat == side].sum()) for side in (1.0, -1.0, 0.0))
     amiss = max(abs(top - bottom), others, abs(top - shape.volume / thickness))
-    return amiss <= _FLAT * top
+    return amiss <= TRIFLE * top
 
 
 def _sheets(vertices: Floats, triangles: Longs, thickness: float) -> CarriedSheets:

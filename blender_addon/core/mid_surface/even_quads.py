@@ -10,15 +10,13 @@ from ..axis.directions import corners_after
 from ..machine.progress import Progress
 from ..small_matrices import dot
 from .even_triangles import even_triangles
-from .quad_pairs import least_sines, paired
-from .sheet_faces import SheetFaces
+from .quad_pairs import LEAST_SINE, least_sines, paired
+from .sheet_faces import ROUNDING, SheetFaces
 
 # Places, (k, 4) rows of these with -1 where a face is a triangle, and the sheets of the faces.
 _Made = tuple[Floats, Longs, Ints]
 
-_STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's
-_LEAST_SINE = 0.5  # at the corners of a grid
-_ROUNDED = 1e-6  # a border that is longer by this share of a size has no other edge for it
+_STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none of the sheet's; chosen: unseen
 
 
 def even_quads(faces: SheetFaces, length: float, progress: Progress | None = None) -> SheetFaces:
@@ -62,7 +60,7 @@ def _with_borders_divided(faces: SheetFaces, length: float) -> SheetFaces:
     np.maximum.at(high, edge, owner)
     is_border = (np.bincount(edge) != 2) | (low != high)
     way = faces.vertices[edges[:, 1]] - faces.vertices[edges[:, 0]]
-    pieces = np.ceil(np.linalg.norm(way, axis=1) / length - _ROUNDED).astype(np.int64)
+    pieces = np.ceil(np.linalg.norm(way, axis=1) / length - ROUNDING).astype(np.int64)
     more = np.where(is_border, np.maximum(pieces - 1, 0), 0)
     first = len(faces.vertices) + np.cumsum(more) - more
     share = _counted(more) + 1
@@ -102,7 +100,7 @@ def _grid(ring: Floats) -> tuple[Floats, Longs] | None:
     places = _filled(low, high, ring[2 * u + v :][::-1], ring[u : u + v + 1]).reshape(-1, 3)
     at = np.arange(len(places)).reshape(u + 1, v + 1)
     quads = np.stack((at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]), axis=2).reshape(-1, 4)
-    return (places, quads) if least_sines(places[quads]).min() >= _LEAST_SINE else None
+    return (places, quads) if least_sines(places[quads]).min() >= LEAST_SINE else None
 
 
 def _filled(low: Floats, high: Floats, left: Floats, right: Floats) -> Floats:

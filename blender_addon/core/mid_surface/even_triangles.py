@@ -9,7 +9,7 @@ from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..machine.progress import Progress
 
-_LONGEST = 4.0 / 3.0  # the remeshing moves no edge that is longer than so many lengths
+_LONGEST = 4.0 / 3.0  # lengths: the remeshing moves no longer edge; derived: kLong
 
 
 def even_triangles(

@@ -13,9 +13,8 @@ from ..machine.progress import Progress
 from ..united import united
 from .carried_sheets import CarriedSheets
 from .crossed_borders import crossings
-from .sheet_faces import SheetFaces
+from .sheet_faces import TRIFLE, SheetFaces
 
-_PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
 _WIDENED = 5  # so many times at most triangles are kept farther around a border that crosses itself
 
 
@@ -107,7 +106,7 @@ def _radii(sheets: CarriedSheets) -> Floats:
     least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
     np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
     np.maximum.at(most, sheets.part, sheets.at_corners.max(axis=1))
-    if (least >= (1.0 - _PLAIN) * most).all():
+    if (least >= (1.0 - TRIFLE) * most).all():
         return np.full(len(sheets.vertices), 0.5 * float(most.mean()))
     radius = np.zeros(len(sheets.vertices))
     np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)

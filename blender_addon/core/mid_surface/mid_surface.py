@@ -31,7 +31,7 @@ from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough
 from ..united import united
-from .carried_sheets import CarriedSheets, carried
+from .carried_sheets import CarriedSheets, are_curved, carried
 from .cut_out_plates import cut_out_plate
 from .even_quads import even_quads
 from .even_triangles import even_triangles
@@ -42,19 +42,13 @@ from .thick_faces import ThickFaces, thick_faces
 from .thick_joints import joined_by_thick_parts
 from .thin_sheets import ThinSheets, thin_sheets
 
-_HALF_OF_WALL = 1.0  # the feature size between parallel walls, in feature sizes
-_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average
-_STEEPEST = 1.0  # the largest slope of the thickness: its walls face each other
-_FLAT = 1e-3  # a mean normal that is shorter than 1 by less than this is that of a flat sheet
-_SAME = 1e-7  # of the diagonal: vertices so close are one
-_PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
-_CURVED = (
-    1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
-)
-_TRIANGLES = 4.0 / 3.0**0.5  # equilateral triangles for an area of one squared edge
+_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average; chosen: unseen
+_SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's rounding
+_PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
+_CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
-_MOST = 0.99  # where less of the volume is sheet, a warning says so
-_DOUBLED = 1.05  # where they have more than this of it, one does, too
+_MOST = 0.99  # where less of the volume is sheet, a warning says so; chosen: unseen
+_DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: midsurface
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,10 +134,11 @@ def mid_surface(
             "Expected faces that bound a solid, found points alone; reconstruct a surface first"
         )
     shape = outward_shape(shape)
-    # A sheet lies in the middle of its walls whatever the spacing, so no hole need be smaller than half of a wall.
+    # A sheet lies in the middle of its walls whatever the spacing, so no hole need be smaller than half of a wall,
+    # the feature size there.
     settings = replace(
         settings,
-        epsilon=_HALF_OF_WALL,
+        epsilon=1.0,
         form=Form.CLEAN,
         mesh=Mesh.VORONOI,
         crisp=True,
@@ -217,7 +212,8 @@ def _simplified(
     if size > 0.0:
         _check_size(size, area, asked.quads)
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
-    if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
+    parts = int(sheets.part.max()) + 1
+    if size > 0.0 or are_curved(normals * doubled[:, None], sheets.part, parts).any():
         wanted = min(wanted, int(_PER_AREA * area / length**2) + 1)
     faces = few_faces(sheets, wanted, progress)
     if size <= 0.0:
@@ -233,7 +229,7 @@ def _simplified(
 
 def _check_size(size: float, area: float, quads: bool) -> None:
     """Raise InvalidInputError where a size makes more faces than anyone can use."""
-    each = 1.0 if quads else _TRIANGLES
+    each = 1.0 if quads else 2.0 * _PER_AREA
     number = each * (area / size) / size  # not the square of the size, which may be 0
     if number > _MOST_FACES:
         least = (each * area / _MOST_FACES) ** 0.5
@@ -241,14 +237,6 @@ def _check_size(size: float, area: float, quads: bool) -> None:
             f"Expected a Size that makes at most {_MOST_FACES:,} faces, found {size:.3g}, which makes about "
             f"{number:.3g}; choose {least:.3g} or more"
         )
-
-
-def _are_curved(sheets: CarriedSheets, vectors: Floats) -> bool:
-    """Whether a sheet is not flat, given (t, 3) normals that are as long as triangles are large."""
-    total = np.zeros((int(sheets.part.max()) + 1, 3))
-    np.add.at(total, sheets.part, vectors)
-    whole = np.bincount(sheets.part, np.linalg.norm(vectors, axis=1))
-    return bool((np.linalg.norm(total, axis=1) < (1.0 - _FLAT) * whole).any())
 
 
 def _with_thickness(
@@ -406,5 +394,5 @@ def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
     np.add.at(whole, row, doubled[:, None])
     slopes = sums / np.where(whole > 0.0, whole, np.inf)[:, None]
     steep = np.sqrt(dot(slopes, slopes))
-    slopes *= (_STEEPEST / np.maximum(steep, _STEEPEST))[:, None]
+    slopes *= (1.0 / np.maximum(steep, 1.0))[:, None]  # where walls face each other it is less
     return slopes[row.ravel()]

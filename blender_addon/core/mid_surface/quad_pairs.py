@@ -11,8 +11,8 @@ from ..arrays import Floats, Ints, Longs
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 
-_LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees
-_FLAT = 0.9  # the cosine between the two triangles, at least
+LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees; chosen: midsurface
+_FLAT = 0.9  # the cosine between the two triangles, at least; chosen: unseen
 
 
 def paired(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Ints]:
@@ -63,7 +63,7 @@ def _candidates(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Lon
     normals, _ = unit_normals(points[triangles])
     value = least_sines(points[quads])
     good = (part[a] == part[b]) & (ends[sides[:, 0], 0] == ends[sides[:, 1], 1])
-    good &= (value >= _LEAST_SINE) & (dot(normals[a], normals[b]) >= _FLAT)
+    good &= (value >= LEAST_SINE) & (dot(normals[a], normals[b]) >= _FLAT)
     return np.column_stack((a, b))[good].astype(np.int64), quads[good], value[good]
 
 

@@ -11,6 +11,9 @@ import numpy as np
 from ..arrays import Floats, Ints, Longs
 from ..axis.polygon_triangles import polygon_triangles
 
+TRIFLE = 1e-3  # of a thickness or an area: so small a share counts for nothing; chosen: unseen
+ROUNDING = 1e-6  # of a length: so small a share is none; derived: rounding
+
 
 @dataclass(frozen=True, eq=False)
 class SheetFaces:

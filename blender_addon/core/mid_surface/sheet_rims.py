@@ -17,18 +17,16 @@ from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..small_matrices import dot
 from .sheet_chains import Chain, chains_of, nearest_along, runs_of, without_ways_back
+from .sheet_faces import ROUNDING
 from .sheet_walls import TOUCHES, Walls, reflex_distances
 from .thin_sheets import ThinSheets
 
-_REACH = 4.0  # so many radii away the wall at a rim is looked for
-_STEPS = (
-    2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
-)
-_ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
-_LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
-_SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least
-_LOST = 0.1  # in radii: so near to the wall of an edge is a place beside the corner of two walls
-_SHORT = 1e-6  # in radii: a shorter edge has no direction
+_REACH = 4.0  # so many radii away the wall at a rim is looked for; chosen: midsurface
+_STEPS = 2.0  # times as far as beside it the wall ahead of an edge may be; chosen: midsurface
+_ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall; chosen: midsurface
+_LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least; chosen: unseen
+_SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least; chosen: midsurface
+_LOST = 0.1  # in radii: so near to the wall of an edge is a place beside the corner of two walls; chosen: unseen
 _NOTHING, _AT_WALL, _CORNER = range(3)  # what an edge ends at: no wall, a wall ahead, a reflex edge
 _LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind tell nothing
 
@@ -178,7 +176,7 @@ def _edges(sheets: ThinSheets, straight: Floats, normals: Floats, radii: Floats)
     out = np.cross(way, normals[triangle, side] + normals[triangle, (side + 1) % 3])
     size = np.linalg.norm(out, axis=1)
     radius = 0.5 * (radii[triangle, side] + radii[triangle, (side + 1) % 3])
-    has = size > _SHORT * radius
+    has = size > ROUNDING * radius
     return RimEdges(
         ends,
         sheets.part[triangle],

@@ -13,7 +13,7 @@ from ..machine.native import own_errors
 from ..shape.shape import Shape
 from .sheet_faces import SheetFaces
 
-_BESIDE = 0.6  # thicknesses from a sheet its walls lie at most; half of one where it is straight
+_BESIDE = 0.6  # thicknesses from a sheet its walls lie at most; half of one where it is straight; derived: above 1 / 2
 _STEPS = 6  # of a grid of places on each triangle
 
 Lengths = Callable[["Floats", "Ints"], "Floats"]

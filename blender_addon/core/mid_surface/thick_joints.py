@@ -12,7 +12,7 @@ from .thin_sheets import ThinSheets
 
 # So many times as large as that in the wall is a ball of what is not thin. Where walls cross, the ball touches their
 # reflex edges and has 1.4 times the radius.
-_THICK = 2.0
+_THICK = 2.0  # derived: above sqrt(2)
 
 
 def joined_by_thick_parts(axis: MedialAxis, thin: ThinSheets) -> int:

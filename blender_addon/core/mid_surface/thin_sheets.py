@@ -19,14 +19,12 @@ from ..united import united
 
 # Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
 # the way along the sheet.
-_FACING = 0.5
-_TAPER = (
-    0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
-)
-_NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too
-_EVEN = 0.15  # the most by which radii of a facet differ, as a share of its size, where it tells how its sheet goes on
-_SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
-_STRIP = 1e-3  # of its radius: a facet that is narrower has no width
+_FACING = 0.5  # derived: kOpposite
+_TAPER = 0.2  # the same at a sharp edge; steeper facets there are those of a rim; chosen: unseen
+_NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too; chosen: unseen
+_EVEN = 0.15  # of its size: radii of a facet that differ more do not tell how its sheet goes on; chosen: midsurface
+_SLIVER = 0.02  # a facet with less area of a disc of its perimeter has no slope; chosen: unseen
+_STRIP = 1e-3  # of its radius: a facet that is narrower has no width; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

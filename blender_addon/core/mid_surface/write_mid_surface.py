@@ -26,7 +26,7 @@ from .thick_faces import ThickFaces
 
 _DIGITS = 6  # thicknesses that agree in this many digits are one section
 _PER_LINE = 8
-_LEAST_SINE = 0.2  # at the corners of an element with four; others are two triangles
+_LEAST_SINE = 0.2  # at the corners of an element with four; else triangles; chosen: unseen
 
 
 def export_mid_surface(

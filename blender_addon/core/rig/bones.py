@@ -21,8 +21,8 @@ from .roll import upright, ups_of
 from .sides import Sides, sides_of
 from .tree import Chain, trees_of
 
-_HIPS = 0.75  # the pelvis is at most this many radii above the place between the hips
-_BEFORE = 0.5  # a limb has what lies this many radii before its head, so that its skin bends evenly on both sides
+_HIPS = 0.75  # radii: the pelvis is no higher above the place between the hips; chosen: unseen
+_BEFORE = 0.5  # a limb has what lies this many radii before its head, so its skin bends on both sides; chosen: rig
 _LEAST = 3  # bones of a limb, so that it can be curled, as a finger
 _TRIED = 24  # this many places are tried for the start of a limb, from the rim of the ball inwards
 

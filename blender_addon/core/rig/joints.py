@@ -14,9 +14,9 @@ from ..arrays import Floats, Longs
 from ..small_matrices import dot
 from .tree import Chain
 
-ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
-LONG = 10.0  # a bone is at most this many mean radii long, as forearms are
-_THIN = 0.5  # a ball counts as no thinner than this share of the mean of the chain
+ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius; chosen: unseen
+LONG = 10.0  # a bone is at most this many mean radii long, as forearms are; chosen: unseen
+_THIN = 0.5  # a ball counts as no thinner than this share of the mean of the chain; chosen: rig
 _STEPS, _MOST_STEPS = (
     48,
     192,

@@ -16,7 +16,7 @@ from ..small_matrices import dot
 from .bones import Body
 from .roll import upright
 
-_REACH = 0.5  # of the way of the hind legs: legs reach at least so far
+_REACH = 0.5  # of the way of the hind legs: legs reach at least so far; chosen: unseen
 
 
 def names_of(bodies: list[Body], count: int) -> list[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..skeleton.skeleton import Skeleton
 
-_AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this share of its radius
+_AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this share of its radius; chosen: unseen
 
 
 def pelvis_of(

@@ -18,9 +18,9 @@ from ..small_matrices import dot, stretches
 from .sides import Sides
 from .tree import Chain
 
-_BENT = 0.25  # a limb is bent if it leaves a straight line by this share of its mean radius
-_FLAT = 0.75  # a limb is flat if it is this many times as thick as wide, or less
-_ALONG = 0.1  # the sine of the angle below which a bone counts as parallel to an axis
+_BENT = 0.25  # a limb is bent if it leaves a straight line by this share of its mean radius; chosen: unseen
+_FLAT = 0.75  # a limb is flat if it is this many times as thick as wide, or less; chosen: unseen
+_ALONG = 0.1  # the sine of the angle of a bone that is parallel to an axis; chosen: unseen
 
 
 def ups_of(chain: Chain, joints: Floats, sides: Sides, within: bool, flat: Floats) -> Floats:

@@ -16,13 +16,13 @@ from ..arrays import Flags, Floats, Longs
 from ..small_matrices import dot, length_of
 from .tree import Chain
 
-_ALIKE = 1.6  # the lengths of two like limbs outside their forks, and the mean radii, differ by at most this factor
-_STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork
-_WITHIN = 0.5  # a chain lies in the plane if it is, in the mean, within this share of its radius
-_ENOUGH = 0.5  # this share of the length that lies aside of the plane belongs to pairs
-_STRAIGHT = 0.5  # the weight of starts that are off, in radii, against limbs without a partner
-_AS_GOOD = 0.1  # the plane across an axis is taken if it costs so little more than the best one
-_ASLANT = 0.5  # a plane across no axis may cost this much of what others may
+_ALIKE = 1.6  # lengths of like limbs outside their forks, and mean radii, differ by at most this factor; chosen: unseen
+_STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork; chosen: unseen
+_WITHIN = 0.5  # a chain lies in the plane if it is, in the mean, within this share of its radius; chosen: unseen
+_ENOUGH = 0.5  # of the length that lies aside of the plane is in pairs; chosen: unseen
+_STRAIGHT = 0.5  # the weight of starts that are off, in radii, against limbs without a partner; chosen: unseen
+_AS_GOOD = 0.1  # the plane across an axis is taken if it costs so little more than the best one; chosen: unseen
+_ASLANT = 0.5  # a plane across no axis may cost this much of what others may; chosen: unseen
 _TINY = float(np.finfo(float).tiny)
 
 

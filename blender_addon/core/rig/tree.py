@@ -12,7 +12,7 @@ from ..arrays import Floats
 from ..skeleton.skeleton import Skeleton
 from .pelvis import pelvis_of
 
-_FAR = 4.0  # chains are compared up to this many radii from their fork
+_FAR = 4.0  # chains are compared up to this many radii from their fork; chosen: unseen
 _SAMPLES = 65  # at this many places
 
 

@@ -16,9 +16,9 @@ from ..skeleton.parts import Places
 from .bones import Bones
 
 MOST = 4  # a vertex follows at most this many bones
-_DIFFUSED = 0.5  # weights diffuse so far, as a share of the radius of the limb
-_SHORT = 1e-6  # the square of an edge counts as no less than this share of the mean
-_CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved up to this error, in at most so many steps
+_DIFFUSED = 0.5  # weights diffuse so far, as a share of the radius of the limb; chosen: rig
+_SHORT = 1e-6  # of the mean: the square of an edge counts as no less; derived: rounding
+_CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved to this, in at most so many; chosen: rig
 
 
 def axis_weights(

@@ -12,15 +12,14 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
-from .density import Density
+from .density import HOLE, Density
 from .levels import Levels
 from .walls import Places, Walls
 
 # Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
 # the largest one that counts.
-_LARGEST = 3.0
-_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
-_BURIED = 0.01  # so large a share of the samples may be buried, for foils are too thin to tell
+_LARGEST = 3.0  # chosen: unseen
+_BURIED = 0.01  # so large a share of the samples may be buried, for foils are too thin to tell; chosen: unseen
 
 
 @dataclass(frozen=True)
@@ -144,7 +143,7 @@ class Analysed(Samples):
         """The distance of neighbours at each sample, (n,); duplicates have 0."""
         if self.apart is not None:
             return self.apart
-        spacing, found = np.zeros(len(self.points)), self.analysis.spacing * _PER_HOLE
+        spacing, found = np.zeros(len(self.points)), self.analysis.spacing * (1.0 / HOLE)
         spacing[self.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
         return spacing
 

@@ -19,14 +19,14 @@ from ..shape.triangles import some_of, unit_normals
 from ..small_matrices import dot
 
 # The distance from the surface at which its two sides are tested, as a share of the spacing.
-_OFF = 1e-3
+_OFF = 1e-3  # derived: rounding
 # Next to buried parts of the surface, parts of the solid leave clefts. Samples cannot resolve clefts narrower than this
 # share of the spacing and would bridge them only in places, so no sample is taken in such clefts.
-_CLEFT = 0.25
+_CLEFT = 0.25  # chosen: unseen
 # Samples in pairs across gaps resolve clefts, too, unless more than this share of them is buried where parts overlap.
-_FEW = 0.002
-_ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate
-_BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings
+_FEW = 0.002  # chosen: unseen
+_ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate; derived: rounding
+_BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings; chosen: unseen
 
 
 def find_bare(

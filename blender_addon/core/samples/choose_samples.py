@@ -29,12 +29,11 @@ from .sample_spacing import Amount
 from .surface_samples import close_openings, sample_faces
 from .thinning import thinned
 
-_WRAPPING = 0.4  # of the analysis
-_PREPARING = 0.3  # of the analysis of points without faces
-_LEVELS = 0.9  # the share of all work that ends with the first hierarchy
-_OF_REST = (
-    0.3  # the share of the work left that a pass is shown as: nobody knows how many there will be
-)
+_WRAPPING = 0.4  # of the analysis; work: progress
+_PREPARING = 0.3  # of the analysis of points without faces; work: progress
+_LEVELS = 0.9  # the share of all work that ends with the first hierarchy; work: progress
+# The share of the work left that a pass is shown as: nobody knows how many there will be.
+_OF_REST = 0.3  # work: progress
 
 
 def begin(

@@ -34,7 +34,7 @@ class Effort:
 
 
 # The shares of the work left that vertices and the first of several passes are.
-_TRIAL, _FIRST = 0.2, 0.4
+_TRIAL, _FIRST = 0.2, 0.4  # work: progress
 # The effort of Automatic is small, so that a first click is fast.
 _EFFORT = {
     SamplingMode.VERTICES: Effort(0, 0.0, 0.0, 0.0),

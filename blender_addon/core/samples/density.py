@@ -21,13 +21,13 @@ from ..shape.nearness import near
 from ..small_matrices import length_of
 
 # No new pass is needed while at most this share of the samples is too sparse for the theorem.
-DENSE_ENOUGH = 0.1
+DENSE_ENOUGH = 0.1  # chosen: midsurface
 # Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as
 # much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
-_HOLE = 0.85  # the radius of the largest holes between even samples, in spacings
+HOLE = 0.85  # spacings: the radius of the largest holes between even samples; measured: stage_sampling.md
 _PLACES = 5  # the number of worst places that are reported
-_APART = 0.05  # the smallest distance between them, as a share of the diagonal
+_APART = 0.05  # the smallest distance between them, as a share of the diagonal; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,7 @@ class Density:
     def is_improved_by(self, spacing: float) -> bool:
         """Return whether even samples with this spacing are denser where it matters; in noise they are not."""
         area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
-        too_wide = (self.epsilon > self.limit) & (self.spacing > _HOLE * spacing)
+        too_wide = (self.epsilon > self.limit) & (self.spacing > HOLE * spacing)
         return area[too_wide].sum() > DENSE_ENOUGH * area.sum()
 
     @cached_property

@@ -18,9 +18,9 @@ from ..shape.solid_faces import SolidFaces
 from ..small_matrices import placed
 from .analysed import Analysed
 
-_REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings
+_REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings; chosen: unseen
 _LOOKED_AT = 500  # doubts are compared with each other, so of many an even selection is
-_AROUND = 4.0  # doubts within this number of spacings belong together
+_AROUND = 4.0  # doubts within this number of spacings belong together; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

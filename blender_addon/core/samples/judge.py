@@ -23,15 +23,13 @@ from .sample_spacing import Amount
 from .sides import decided
 
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
-_SPENT = 0.97
+_SPENT = 0.97  # work: progress
 _PASSES = 10  # the most passes with pairs
-_FEW_BURIED = 0.005  # so large a share of the samples may be buried while spacings become smaller
+_FEW_BURIED = 0.005  # so large a share of the samples may be buried while spacings become smaller; chosen: unseen
 # Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
 # on the way, as where the spacings of both sides of a wall become small one after the other; but a pass that is no
 # better than the one before may be followed by no more than so many others of this kind.
 _WORSE, _MANY, _STALLED = 10, 100, 2
-# A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
-_MORE = 1.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,7 +209,7 @@ def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
     trial, samples, number = tried[-1], tried[-1].samples, len(tried)
     again = number == 1 and (not samples.density.dense_enough or samples.walls_are_close)
     left = plan.given.settings.budget - sum(len(one.samples.points) for one in tried)
-    if not (trial.differences or again) or left < _MORE * len(samples.points):
+    if not (trial.differences or again) or left <= len(samples.points):
         return None
     if number == _PASSES or _are_hopeless(tried):
         return None

@@ -17,14 +17,14 @@ from .doubts import Topology
 from .sample_spacing import Amount
 
 # The spacing at a doubt is this share of its gap, but not more and not less than these shares of the spacing there.
-_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
+_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25  # chosen: unseen
 # Where a Voronoi edge passes the faces in a gap below this share of the way to its samples, it may touch a bulge.
-_WIDE = 0.2
+_WIDE = 0.2  # chosen: unseen
 # Walls that are missed on more than this share of the area are missed as a whole.
-_AS_A_WHOLE = 0.2
+_AS_A_WHOLE = 0.2  # chosen: unseen
 # Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid;
 # the least angle of the option is one degree.
-_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)
+_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)  # chosen: unseen
 
 
 def next_amount(plan: Plan, samples: Analysed, budget: int) -> Amount:

@@ -13,7 +13,7 @@ from ..settings import SamplingMode, Settings
 from ..shape.shape import Shape
 from ..small_matrices import length_of
 
-_LATER = 0.6  # the share of the work left that a pass after the first one is
+_LATER = 0.6  # the share of the work left that a pass after the first one is; work: progress
 _MANY = 2**53  # samples; more than any memory holds
 
 

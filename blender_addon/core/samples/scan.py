@@ -17,17 +17,15 @@ from ..severe import Severe
 from ..shape.shape import Shape
 from .density import percent
 
-SOME = 0.1  # noise in spacings from which on the axis has flakes
-_TOO_MUCH = 2.5  # noise in spacings beyond which too few points show the surface
+SOME = 0.1  # noise in spacings from which on the axis has flakes; chosen: unseen
+_TOO_MUCH = 2.5  # noise in spacings beyond which too few points show the surface; chosen: unseen
 _ALONE = (0.001, 0.1)  # the share of lone points that are outliers; fewer are the tips of a shape
 _FEWEST = 4  # of them
-_LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more
-_MATES = (
-    1.4  # more pairs at the same height are those of views that do not fit; errors have 1.3 at most
-)
+_LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more; measured: lab/scans.md, kurtosis
+_MATES = 1.4  # more pairs of one height: views do not fit; measured: lab/scans.md, pairs
 _WALLS = (0.7, 1.7)  # more noise in spacings with a smaller kurtosis is two walls of a thin part
-_ENDS = 0.02  # a larger share of points at which the surface ends is an opening, or a sheet
-_THIN = 5.0  # walls of fewer standard deviations of the noise become one
+_ENDS = 0.02  # a larger share of points at which the surface ends is an opening, or a sheet; chosen: unseen
+_THIN = 5.0  # walls of fewer standard deviations of the noise become one; chosen: axis
 
 
 @dataclass(frozen=True, eq=False)

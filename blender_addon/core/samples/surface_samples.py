@@ -20,11 +20,11 @@ from .sample_spacing import mean_spacing
 from .walls import Places
 
 # The radius of a sample's disc, in spacings.
-_DISC = 0.727
+_DISC = 0.727  # derived: sqrt(kPacking * sqrt(3) / 2)
 # A cell of four samples may have its centre outside of them; a dozen on a closed surface have a cell with its centre
 # inside.
 _OF_SHELL = 12
-_FINEST = 1e-6  # of the extent: the least spacing, which the grid of the sampler can hold
+_FINEST = 1e-6  # of the extent: the least spacing that the grid of the sampler can hold; derived: 20 of 21 bits
 
 
 def sample_faces(plan: Plan, options: dict[str, Any], progress: Any) -> Samples:

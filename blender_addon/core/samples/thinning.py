@@ -18,7 +18,7 @@ from .prepare import Input
 from .sample_spacing import first_pass
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
-_KEPT = 0.95
+_KEPT = 0.95  # chosen: unseen
 _PER_OCTAVE = 8  # the number of grids that are tried for each doubling of the resolution
 _OCTAVES = 20  # the number of doublings of the resolution
 

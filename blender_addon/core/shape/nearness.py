@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints, Longs
 
 # The smallest cell, in a unit in which no coordinate is larger than 1: numbers of smaller cells overflow 64 bits.
-_SMALLEST_CELL = 2.0**-60
+_SMALLEST_CELL = 2.0**-60  # derived: above the rounding of ids in cells
 
 
 def same_place(points: Floats) -> Longs:

@@ -12,7 +12,7 @@ from ..machine import native
 from ..small_matrices import placed
 from .shape import Shape
 
-_NOTICED = 0.05  # this share of a length is noticed
+_NOTICED = 0.05  # this share of a length is noticed; chosen: unseen
 
 
 def in_own_frame(shape: Shape) -> tuple[Shape, Floats]:

@@ -20,7 +20,7 @@ from .triangles import unit_normals
 TURNED, REPEATED, WITHOUT_CORNERS, OF_SHEETS = 1, 2, 3, 4
 # The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
 # looked at, in roundings.
-_FOLDED, _OFF = -0.99, 4
+_FOLDED, _OFF = -0.99, 4  # chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

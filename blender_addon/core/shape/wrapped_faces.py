@@ -14,7 +14,7 @@ from ..settings import Settings, SidesFrom
 from ..small_matrices import length_of
 from .shape import Shape
 
-_DISTANCE = 0.05  # of the surface from the faces, as a share of the openings that it closes
+_DISTANCE = 0.05  # of the openings that it closes, from the faces; chosen: axis
 
 
 def wrapped_shape(shape: Shape, settings: Settings, progress: Progress | None = None) -> Shape:

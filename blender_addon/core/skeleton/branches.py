@@ -28,8 +28,8 @@ from .skeleton import Skeleton
 
 _APART = 4  # one of this many places of the smooth line has a cross-section: every half radius
 _MOST_SECTIONS = 64  # of a branch
-_BENT = 0.05  # where a line bends by less than this many radians within a radius, torsion is noise
-_ROOM = 4.0  # faces nearer to a branch than this many radii are cut first
+_BENT = 0.05  # where a line bends by less than this many radians within a radius, torsion is noise; chosen: unseen
+_ROOM = 4.0  # faces nearer to a branch than this many radii are cut first; work: time
 MEASURES = ("curvature", "torsion", "area", "perimeter")
 
 

@@ -19,7 +19,7 @@ from ..small_matrices import length_of
 
 _HALVED = 8  # an edge that balls at so fine places do not cover touches the surface
 # Balls on two sides of the surface may touch, and by rounding seem to overlap; balls overlap by more than this share.
-_OVERLAP = 1e-6
+_OVERLAP = 1e-6  # derived: rounding
 _ROUNDS = 4  # so often an edge between neighbours is split
 _TRIED = 14, 12  # steps and directions in which a place between two balls is looked for
 

@@ -8,11 +8,10 @@ from collections import Counter
 import numpy as np
 
 from ..arrays import Longs
+from ..curves.ends import LAST
 from ..curves.net import Net
 from ..errors import InvalidInputError
 from ..small_matrices import length_of
-
-_NEAR = 2.0  # an end less than this many radii from the tip of its limb means the tip
 
 
 def join_ends(net: Net, rows: Longs) -> list[int]:
@@ -67,7 +66,7 @@ def _end_at(net: Net, row: int) -> tuple[int, bool]:
     name = next(name for name, chain in net.branches.items() if row in chain)
     chain = net.branches[name]
     tips = [(_way(net, chain, row, tip), tip) for tip in net.ends_free(name)]
-    if tips and min(tips)[0] <= _NEAR * net.radius[row]:
+    if tips and min(tips)[0] <= LAST * net.radius[row]:
         return min(tips)[1], True
     net.split(name, chain.index(row))
     return row, False

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats, Longs
+from ..axis.compute import ANALYSIS
 from ..axis.detail import net_with_detail
 from ..axis.levels import hierarchy_of
 from ..axis.solid_warnings import solid_warnings
@@ -40,9 +41,6 @@ from .parts import Parts, parts_of, places
 from .simplify import kept_points
 from .skeleton import Skeleton, skeleton_of
 from .warnings import fill_warnings, skeleton_warnings
-
-# This share of the work is done before the hierarchy begins.
-_ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +120,7 @@ def compute_skeleton(
         replace(settings, side=Side.INNER),
         progress,
         limit,
-        _ANALYSIS,
+        ANALYSIS,
         levels=True,
     )
     chosen = begun.chosen

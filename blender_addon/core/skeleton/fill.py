@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
+from ..curves.depth import ASIDE
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..shape.nearness import same_place
@@ -17,8 +18,7 @@ from ..shape.triangles import unit_normals
 from ..small_matrices import length_of
 from ..united import united
 
-_INSIDE = 0.5  # of a winding number, from which on a place is inside
-_ASIDE = 1e-5  # a face is looked at from so far before it, as a share of the diagonal
+_INSIDE = 0.5  # of a winding number, from which on a place is inside; derived: the winding number of the surface
 _LOOKED_AT = 64  # faces of a patch, at most
 
 
@@ -61,7 +61,7 @@ def filled(shape: Shape) -> Filled:
     place = same_place(points)
     normals, twice = unit_normals(points[faces])
     diagonal = length_of(np.ptp(points, axis=0))
-    looks = points[faces].mean(axis=1) + _ASIDE * diagonal * normals
+    looks = points[faces].mean(axis=1) + ASIDE * diagonal * normals
     hidden = _has_opposite_wall(points, faces, normals, diagonal) & (twice > 0.0)
     for faced in (False, True):  # bottoms first, which stand before the walls round them
         patch = _patches(place[faces], hidden)

@@ -16,10 +16,11 @@ from ..arrays import Floats
 from ..curves.net import Net
 from ..small_matrices import dot, inverse, stretches, times
 
-_FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball
-_MOVED = 1.0  # a fork moves by at most this many radii
-_ROOM = 0.6  # the ball at the new place must have at least this share of the radius
-_STAY = 0.05  # the old place has this weight; each limb has weight 1
+_FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball; chosen: skeleton
+_ROOM = (
+    0.6  # the ball at the new place must have at least this share of the radius; chosen: skeleton
+)
+_STAY = 0.05  # the old place has this weight; each limb has weight 1; chosen: skeleton
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ def _draw(net: Net, forks: list[int], samples: Floats) -> None:
     wanted = np.array([_meeting_point(net, fork) for fork in forks])
     room = _room(wanted, samples)
     moved = np.linalg.norm(wanted - net.points[forks], axis=1)
-    fits = (moved <= _MOVED * net.radius[forks]) & (room >= _ROOM * net.radius[forks])
+    fits = (moved <= net.radius[forks]) & (room >= _ROOM * net.radius[forks])
     roots = {fork: _roots(net, fork) for fork, fit in zip(forks, fits, strict=True) if fit}
     changed = []
     for fork, place in zip(forks, wanted, strict=True):

@@ -14,7 +14,7 @@ from ..curves.net import Net
 from ..machine.native import own_errors
 from ..shape.shape import Shape
 
-_LEAST_STEP = 1e-5  # of a way: gaps between two bodies that are narrower are not seen
+_LEAST_STEP = 1e-5  # of a way: narrower gaps between bodies are not seen; derived: rounding
 _STEPS = 256  # a way that needs more runs along a face
 _CHUNK = 1 << 20  # distances at once; bounds the memory
 

@@ -11,17 +11,17 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
+from ..axis.smooth_curve import FARTHEST
 from ..curves.depth import Depth
 from ..curves.net import Net
 from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
 from ..small_matrices import dot
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
-_MOVED = 0.5  # a point moves by at most this many radii at once, and so stays in the ball around it
-_AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is
-_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is still that from the same place
+_AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is; derived: rounding
+_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is from one place; derived: rounding
 _HALVED = 10  # so often the range of a move is halved
-_ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides
+_ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides; chosen: skeleton
 
 
 def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:
@@ -71,7 +71,7 @@ def _smooth(net: Net) -> None:
         marks = marks_of(net.points[rows])
         smooth = at_marks(marks / marks[-1], share, places)
         moved = _lengths(smooth - net.points[rows])
-        free = moved < _MOVED * net.radius[rows]
+        free = moved < FARTHEST * net.radius[rows]
         free[[0, -1]] &= rows[0] == rows[-1] and len(net.at[rows[0]]) == 2
         net.points[rows[free]] = smooth[free]
         net.radius[rows[free]] -= moved[free]  # a ball that certainly fits
@@ -81,7 +81,7 @@ def _middles(places: Floats, depth: Depth) -> Floats:
     """Return the centres of the largest balls that touch the surface where it is nearest to places."""
     room = depth(places)
     way = _away(places, room, depth)
-    low, high = np.zeros(len(places)), _MOVED * room
+    low, high = np.zeros(len(places)), FARTHEST * room
     for _ in range(_HALVED):
         far = (low + high) / 2.0
         fits = depth(places + far[:, None] * way) >= (1.0 - _AS_FAR) * (room + far)

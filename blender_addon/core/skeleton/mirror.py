@@ -14,7 +14,7 @@ from ..curves.net import Net
 from ..shape.nearness import near, nearest
 from ..small_matrices import length_of
 
-SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
+SYMMETRIC = 0.02  # a mirror image may be off by this share of the size; chosen: rig
 
 
 def make_symmetric(net: Net, plane: float) -> bool:

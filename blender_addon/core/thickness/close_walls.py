@@ -24,15 +24,15 @@ from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 
 # A way through the solid counts where it is shorter than this share of the measured length.
-_SHORTER = 0.95
+_SHORTER = 0.95  # chosen: unseen
 # At an edge whose faces enclose a smaller angle than this the ways through the solid become arbitrarily short, and the
 # settings decide what counts.
-_ACUTE = math.radians(75.0)
+_ACUTE = math.radians(75.0)  # chosen: unseen
 # So many ways through the solid from such an edge, its faces are no longer a wedge but two walls (at 18 degrees).
-_REACH = 3.0
+_REACH = 3.0  # chosen: unseen
 _STEPS = 4  # places on an acute edge for each spacing
 # Both sides of the faces at the ends of a way are tested this far from them, as a share of the way.
-_BESIDE = 0.01
+_BESIDE = 0.01  # chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,9 +30,9 @@ from .fine_faces import FineFaces, coarse_faces, cut_faces
 
 # The mesh itself shows its thickness where its edges are at most this number of spacings long. If they are longer on
 # a larger share of the area, faces are cut until no edge is longer than the other number of spacings.
-_COARSE, _SOME, _FINE = 4.0, 0.1, 1.5
+_COARSE, _SOME, _FINE = 4.0, 0.1, 1.5  # chosen: thickness
 _REFLEX, _CONVEX = 1, 2  # kinds of edges
-_BURIED = 1e-6  # a larger share of the area that bounds nothing calls for samples
+_BURIED = 1e-6  # of the area: more that bounds nothing calls for samples; derived: rounding
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from ..united import united
 
 # Directions in which the normals at a vertex differ by less than this share are left alone: a vertex between two
 # nearly opposite walls, as at the tip of a blade, would run far away to offset both.
-_OPPOSITE = 0.05
+_OPPOSITE = 0.05  # chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

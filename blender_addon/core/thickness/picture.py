@@ -16,9 +16,9 @@ from ..samples.surface_normals import cross
 from ..small_matrices import length_of, times
 
 _FINE = 2  # pixels are computed that much finer in both directions, and averaged
-_STEP = 0.7  # between drawn points of a triangle, in fine pixels
+_STEP = 0.7  # between drawn points of a triangle, in fine pixels; work: shown
 _CHUNK = 1 << 21  # points that are drawn at once
-_AMBIENT = 0.35
+_AMBIENT = 0.35  # work: shown
 _WHITE = 255
 
 

@@ -38,10 +38,10 @@ from .thin_parts import ThinParts, find_thin_parts
 
 _ROUNDS = 8  # at most; two or three suffice where walls are not much curved
 _HALVES = 2  # so many rounds give each of two walls half
-_OF_GAP = 0.45  # the share of a gap that a wall may take: the opposite wall takes as much
-_BEYOND = 1e-4  # walls gain this share of the limit more, so that few rounds leave none below it
+_OF_GAP = 0.45  # of a gap: the opposite wall may take as much; chosen: unseen
+_BEYOND = 1e-4  # walls gain this share of the limit more, so that few rounds leave none below it; derived: rounding
 _HALVINGS = 5  # of the way of faces that would pass through others, before they stay
-_FARTHEST = 3.0  # times the largest gain: no vertex moves farther
+_FARTHEST = 3.0  # times the largest gain: no vertex moves farther; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)

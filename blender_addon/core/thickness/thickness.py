@@ -37,7 +37,7 @@ from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
 from .measurement import UNKNOWN, Measurement
 
 # From this noise on, in spacings, the mode Clean measures too small lengths, and every mode measures wrong lengths.
-_SOME, _TOO_MUCH = 0.05, 0.18
+_SOME, _TOO_MUCH = 0.05, 0.18  # chosen: unseen
 
 
 def measure_thickness(

@@ -17,9 +17,9 @@ from .measurement import Measurement
 
 STEPS_BELOW, STEPS_ABOVE = 4, 8  # of the legend and of the histogram, below and above the limit
 STEPS = STEPS_BELOW + STEPS_ABOVE
-_RED, _VIOLET = 0.58, 0.3  # positions on the scale of `colours`, just below the limit and at it
-_MOST = 0.95  # share of the area that is thinner than the length at which the colours end
-_WIDEST = 1.5  # multiples of the limit to which the colours reach at least
+_RED, _VIOLET = 0.58, 0.3  # positions on the scale, below and at the limit; work: shown
+_MOST = 0.95  # of the area is thinner than where the colours end; work: shown
+_WIDEST = 1.5  # multiples of the limit to which the colours reach at least; work: shown
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ _VIEWS = {  # from the shape to the eye
 }
 _CLOSE = 6  # patches that are shown close up
 _SIZE, _SMALL = (560, 420), (270, 200)
-_AROUND = 4.0  # what is seen round a patch, in its size
+_AROUND = 4.0  # what is seen round a patch, in its size; work: shown
 STYLE = """
 body { font: 16px/1.5 sans-serif; max-width: 72em; margin: 2em auto; padding: 0 1em; color: #222 }
 figure { display: inline-block; margin: 0 1em 1em 0; vertical-align: top }

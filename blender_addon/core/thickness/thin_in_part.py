@@ -21,7 +21,7 @@ from .fine_faces import coarse_faces, cut_faces
 from .measurement import Measurement
 from .thickness import measure_thickness
 
-_SOME = 0.02  # a smaller part of a face does not count
+_SOME = 0.02  # a smaller part of a face does not count; chosen: unseen
 DIVISIONS = 3  # at most; one suffices unless the new vertices make the samples denser
 
 

@@ -10,9 +10,6 @@
 namespace medial {
 namespace {
 
-// This is less than 1 by more than the rounding of radii.
-constexpr double kFar = 0.99;
-
 // The width of this grid cell grows with the radius of the balls at the vertices in it.
 using GridCell = std::array<double, 4>;
 
@@ -97,7 +94,7 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
   parallel_for(static_cast<int64_t>(points.size()), run, [&](int64_t p) {
     if (!wanted[p]) return;
     size[p] = near.nearest(points[p]).distance;
-    if (size[p] > kFar * extent) size[p] = std::min(size[p], far.nearest(points[p]).distance);
+    if (size[p] > extent) size[p] = std::min(size[p], far.nearest(points[p]).distance);
   });
   std::vector<double> result;
   result.reserve(at.size());

@@ -15,6 +15,6 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
                                  const Edges& edges, std::span<const int32_t> edge_ids,
                                  const Run& run);
 
-inline constexpr double kThinning = 1.0 / 32;
+inline constexpr double kThinning = 1.0 / 32;  // chosen: skeleton
 
 }  // namespace medial

@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-constexpr double kUpright = 0x1p-40;  // of the square of a direction, what is across the normal
+constexpr double kUpright = 0x1p-40;  // squared: what is across the normal; derived: rounding
 
 }  // namespace
 

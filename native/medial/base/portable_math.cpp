@@ -9,14 +9,15 @@ namespace medial::portable {
 namespace {
 
 // Each constant of two or three parts is their exact sum, far beyond a double.
-constexpr double kHalfPi = 0x1.921fb54442d18p+0, kHalfPiRest = 0x1.1a62633145c07p-54;
-constexpr double kQuarterPi = kHalfPi / 2, kQuarterPiRest = kHalfPiRest / 2;
-constexpr double kPi = 2 * kHalfPi, kPiRest = 2 * kHalfPiRest;
+constexpr double kHalfPi = 0x1.921fb54442d18p+0,
+                 kHalfPiRest = 0x1.1a62633145c07p-54;                         // derived: pi
+constexpr double kQuarterPi = kHalfPi / 2, kQuarterPiRest = kHalfPiRest / 2;  // derived: pi / 4
+constexpr double kPi = 2 * kHalfPi, kPiRest = 2 * kHalfPiRest;                // derived: pi
 // The first two have 33 bits, so that up to 2^20 times each is exact (Cody & Waite 1980).
 constexpr double kTurn1 = 0x1.921fb544p+0, kTurn2 = 0x1.0b4611a6p-34,
-                 kTurn3 = 0x1.3198a2e037073p-69;
-constexpr double kLargestAngle = 0x1p20;
-constexpr double kTanEighthPi = 0x1.a827999fcef32p-2;
+                 kTurn3 = 0x1.3198a2e037073p-69;       // derived: pi / 2 in three parts
+constexpr double kLargestAngle = 0x1p20;               // derived: 53 - 33 bits
+constexpr double kTanEighthPi = 0x1.a827999fcef32p-2;  // derived: tan(pi / 8)
 
 // The polynomials interpolate, in z = x^2, at Chebyshev's nodes: (asin x / x - 1) / z for |x| <=
 // 1/2, (atan x / x - 1) / z for |x| <= tan(pi/8), (sin x / x - 1) / z and (cos x - 1 + z/2) / z^2

@@ -23,7 +23,7 @@ bool are_single(std::span<const Vec3> rows) {
 }
 
 double rounding_of(std::span<const Vec3> rows, double far) {
-  constexpr double kRoundings = 4;
+  constexpr double kRoundings = 4;  // chosen: unseen
   if (rows.empty()) return 0;
   const Box box = box_of(rows);
   const double largest = std::max(max_abs(box.low), max_abs(box.high));

@@ -19,6 +19,8 @@ inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y +
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+// The cosine between the outward normals of walls that are opposite each other, at most.
+inline constexpr double kOpposite = -0.5;  // derived: cos(120 degrees), a third of a turn
 inline double squared_length(const Vec3& a) { return dot(a, a); }
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline double distance(const Vec3& a, const Vec3& b) { return length(a - b); }

@@ -6,7 +6,7 @@
 namespace medial {
 namespace {
 
-constexpr double kDeep = 0.5;  // the least cosine of two balls on the same side
+constexpr double kDeep = 0.5;  // the least cosine of two balls on the same side; chosen: unseen
 constexpr int32_t kNone = -1;
 constexpr int32_t kAtInfinity = 0;  // the node of all poles at infinity
 

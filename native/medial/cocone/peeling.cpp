@@ -12,7 +12,7 @@ namespace {
 // Returns the faces with the least circumradius, a bit each. There may be several, because most
 // points are stored in single precision, which cannot distinguish all radii.
 uint8_t smallest_faces(std::span<const Vec3> points, const Triangulation& t, int32_t cell) {
-  constexpr double kTie = 1 + 0x1p-20;
+  constexpr double kTie = 1 + 0x1p-20;  // derived: above the rounding of a float, squared
   std::array<double, 4> size;
   for (int i = 0; i < 4; ++i) {
     const auto [p, q, r] = corners(t, {cell, i});

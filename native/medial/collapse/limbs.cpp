@@ -5,9 +5,9 @@ namespace medial {
 namespace {
 
 // share of the radius; a ball that sticks out by this much less counts as equal
-constexpr double kAlike = 0.05;
+constexpr double kAlike = 0.05;  // chosen: rig
 // if a branch sticks out this many times farther than its tip, that is not the limb's tip
-constexpr double kLost = 4;
+constexpr double kLost = 4;  // chosen: unseen
 
 // These are branches by elongation: where branches meet, the one with the largest value continues.
 struct Branches {

@@ -8,7 +8,7 @@ namespace {
 
 // Below this share of the diagonal, the order only affects which vertex of a small tree stays: a
 // loose end stays loose, and the cells behind it determine the elongation.
-constexpr double kAtOnce = 1.0 / 1024;
+constexpr double kAtOnce = 1.0 / 1024;  // chosen: unseen
 constexpr size_t kBuckets = 512;
 
 // A fire front on a wire measures lengths from an anchor instead of adding up edges, because

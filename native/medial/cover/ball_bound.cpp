@@ -11,7 +11,7 @@
 namespace medial {
 namespace {
 
-constexpr double kSearched = 0.01;      // the search ends at this share of the bound
+constexpr double kSearched = 0.01;  // the search ends at this share of the bound; chosen: unseen
 constexpr int64_t kServersOfTask = 16;  // balls in one piece of work
 
 // This finds balls that serve all places, for any bound.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kBalls = 256;  // balls in one piece of work
 // A ball is near the farthest place if it leaves at most this share of the distance.
-constexpr double kNear = 0.25;
+constexpr double kNear = 0.25;  // chosen: balls
 
 // This is an upper bound of the places that a ball would cover: the number at its last count.
 struct Gain {

@@ -19,9 +19,9 @@ constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
 // With more balls than this, a refined choice would cost much and gain next to nothing.
 constexpr int64_t kMostRefined = 1024;
 // This share of the balls inside bounds how far the surface is from them.
-constexpr double kBounding = 0.9;
+constexpr double kBounding = 0.9;  // chosen: unseen
 // The places inside at which distances are bounded, too, are this many steps of the lattice apart.
-constexpr double kCoarse = 2;
+constexpr double kCoarse = 2;  // chosen: unseen
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {
   require_finite(input.centres, "centre");

@@ -11,7 +11,7 @@
 namespace medial {
 namespace {
 
-constexpr double kCoarser = 1.25;  // from cells that are too small to the next ones
+constexpr double kCoarser = 1.25;  // from cells that are too small to the next ones; chosen: balls
 
 struct InCell {
   int64_t x, y, z;

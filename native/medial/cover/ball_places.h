@@ -23,7 +23,7 @@ struct BoundedPlace {
   Vec3 at;
   double least = 0;  // the distance from the nearest of all balls: no choice comes nearer
 
-  static constexpr double kMore = 0.25;
+  static constexpr double kMore = 0.25;  // chosen: unseen
 
   double limit(double bound) const { return std::max(bound, least + kMore * bound); }
   // Returns the least bound that allows a distance.

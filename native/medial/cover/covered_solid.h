@@ -13,7 +13,7 @@
 
 namespace medial {
 
-inline constexpr double kPiece = 0.5;  // edges of pieces of the surface, in steps of the lattice
+inline constexpr double kPiece = 0.5;  // steps of the lattice: edges of pieces; chosen: balls
 
 // The solid is kept in a frame in which squares of lengths do not overflow.
 struct CoveredSolid {

@@ -9,7 +9,7 @@
 
 namespace medial {
 
-inline constexpr double kLongEdge = 64;    // pieces along an edge that make a triangle slow
+inline constexpr double kLongEdge = 64;    // pieces along an edge of a slow triangle; work: time
 inline constexpr int64_t kTriangles = 16;  // triangles in one piece of work
 
 // Halves a triangle across its longest edge until that is at most `piece`, and calls

@@ -12,7 +12,7 @@ namespace medial {
 namespace {
 
 // Bounds are searched at this many places, or this many for each ball.
-constexpr double kFine = 0.5;  // steps of the lattice: a search for bounds ends there
+constexpr double kFine = 0.5;  // steps of the lattice: searches for bounds end; chosen: unseen
 constexpr int64_t kPlaces = 32768, kPlacesOfBall = 40;
 
 std::vector<Vec3> centres_of(std::span<const Ball> balls) {

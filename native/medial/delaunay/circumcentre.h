@@ -9,10 +9,10 @@ namespace medial {
 
 // This is the largest relative error that is accepted: that of a float, the precision in which
 // meshes are stored.
-inline constexpr double kCoarsestError = 0x1p-24;
+inline constexpr double kCoarsestError = 0x1p-24;  // derived: a float
 // This is the accepted error where the existence of a facet depends on it: whether two centres are
 // one, or three are on a line.
-inline constexpr double kFinestError = 0x1p-40;
+inline constexpr double kFinestError = 0x1p-40;  // derived: rounding
 
 struct Circumcentre {
   Vec3 centre;

@@ -4,9 +4,8 @@
 namespace medial {
 namespace {
 
-constexpr double kAccidentBall =
-    3.5;  // the largest ball of a rim that ends in what may be no crease
-constexpr double kOneDirection = 0.85;  // the cosine between creases of one direction
+constexpr double kAccidentBall = 3.5;   // the same where it may be no crease; chosen: axis
+constexpr double kOneDirection = 0.85;  // the cosine between creases of one way; chosen: unseen
 
 Vec3 direction(const SamplesOnFaces& samples, int32_t edge) {
   const auto& mesh = samples.faces().mesh();

@@ -7,8 +7,8 @@
 
 namespace medial {
 
-inline constexpr double kCreaseBall = 8;     // the largest ball of a rim that ends in a crease
-inline constexpr double kCornerReach = 2.5;  // from the end of a rim to a corner of the solid
+inline constexpr double kCreaseBall = 8;  // the largest ball that ends in a crease; chosen: unseen
+inline constexpr double kCornerReach = 2.5;  // from a rim to a corner of a solid; chosen: axis
 
 // Returns how far a crease may be from a vertex of a rim that ends in it; 0 where none ends there.
 double crease_reach(const SamplesOnFaces& samples, const PlaceOnCrease& place);

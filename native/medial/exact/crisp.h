@@ -13,7 +13,7 @@
 namespace medial {
 
 // How far the bar of a hierarchy is where this stage begins, which ends it.
-inline constexpr double kBarOfCrispPlaces = 0.32;
+inline constexpr double kBarOfCrispPlaces = 0.32;  // work: progress
 
 struct CrispPlaces {
   Array<Vec3> position;  // (v)

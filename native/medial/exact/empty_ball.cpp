@@ -7,11 +7,10 @@ namespace medial {
 namespace {
 
 // Lengths are in holes between the samples.
-constexpr double kExact = 1e-10;     // the largest difference between a radius and the distance
-constexpr double kFarthestMove = 2;  // that a vertex moves to touch walls
-constexpr int kMoreWalls = 8;        // attempts to mend walls that the ball sticks out of
-constexpr double kNearlyEqual =
-    1e-3;  // between the distances to walls of one ball, where they are rough
+constexpr double kExact = 1e-10;       // between a radius and the distance; derived: rounding
+constexpr double kFarthestMove = 2;    // that a vertex moves to touch walls; chosen: axis
+constexpr int kMoreWalls = 8;          // attempts to mend walls that the ball sticks out of
+constexpr double kNearlyEqual = 1e-3;  // distances to walls of one rough ball; chosen: unseen
 
 class BallFinder {
  public:

@@ -33,9 +33,6 @@ inline double openness(const std::array<Vec3, kMostContacts>& away) {
   return 0.5 * (1 - dot(away[0], away[1]));
 }
 
-// Directions to feet that differ by less are those to one foot.
-inline constexpr double kSameFoot = kSameDirection;
-
 // A place, and the largest hole between the samples there, in which lengths are measured.
 struct NearPlace {
   Vec3 place;

@@ -7,14 +7,14 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kFew = 64;            // vertices that a thread takes at a time
-constexpr double kSamePlace = 1e-3;     // of the target length, between places that are one
-constexpr double kMostSlide = 0.7;      // of the target length that a rim moves at once
-constexpr double kAtEnd = 0.1;          // of the target length: a rim that moves less is at its end
-constexpr double kRimOpenness = 0.003;  // of a rim: the squared sine of half of 6 degrees
-constexpr double kPlate = 0.9;          // the openness of a plate with nearly parallel sides
-constexpr double kRimSlope = 0.2;       // of the steps along a rim
-constexpr double kRough = 0.05;         // mean deviation of steps, in target lengths
+constexpr int64_t kFew = 64;         // vertices that a thread takes at a time
+constexpr double kSamePlace = 1e-3;  // target lengths between places that are one; chosen: unseen
+constexpr double kMostSlide = 0.7;   // of the target length that a rim moves at once; chosen: axis
+constexpr double kAtEnd = 0.1;  // target lengths: a rim that moves less has ended; chosen: unseen
+constexpr double kRimOpenness = 0.003;  // of a rim; chosen: axis
+constexpr double kPlate = 0.9;  // the openness of a plate with nearly parallel sides; chosen: axis
+constexpr double kRimSlope = 0.2;  // of the steps along a rim; chosen: axis
+constexpr double kRough = 0.05;    // mean deviation of steps, in target lengths; chosen: axis
 constexpr int kMeans = 6, kMeansOfRoughness = 16;
 constexpr int kAlongRounds = 12;     // in which a step learns of those along the rim
 constexpr int kHalvingsToLast = 10;  // of the way to the last ball that touches two places

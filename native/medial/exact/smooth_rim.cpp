@@ -6,10 +6,10 @@ namespace {
 
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
-constexpr double kMostOpen = 0.45;    // the squared sine of half the angle
-constexpr double kFarOut = 0.8;       // of the way to the rim that balls are tried on
-constexpr double kFarthestRim = 0.5;  // from the last vertex to the rim, in radii
-constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
+constexpr double kMostOpen = 0.45;    // the squared sine of half the angle; chosen: axis
+constexpr double kFarOut = 0.8;       // of the way to the rim that balls are tried on; chosen: axis
+constexpr double kFarthestRim = 0.5;  // from the last vertex to the rim, in radii; chosen: axis
+constexpr double kBent = 0.4;         // deviation from a line, as a share of openness; chosen: axis
 constexpr int kRimSteps = 4;
 
 // Fits a parabola through the origin to how much of the openness is lost on the way.

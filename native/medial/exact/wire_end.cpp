@@ -8,8 +8,7 @@
 namespace medial {
 namespace {
 
-constexpr double kBefore = 0.5;    // the cosine between a wire and the way to the wall before it
-constexpr double kEndFarther = 1;  // holes that the end of a wire moves, at most
+constexpr double kBefore = 0.5;  // the cosine between a wire and its wall; chosen: unseen
 
 // Returns the wall of a ball that lies before the end of a wire, or -1.
 int32_t wall_before(const Touch& at, const Vec3& along) {
@@ -38,7 +37,8 @@ Touch wire_end(const SamplesOnFaces& samples, double hole, const Touch& at, cons
     if (t < 0 || !samples.faces().is_curved(t)) return {};
     walls.add(t);
   }
-  return nearly_empty_ball(samples, hole, walls, at.position, kEndFarther * hole);
+  // The end of a wire moves by a hole at most.
+  return nearly_empty_ball(samples, hole, walls, at.position, hole);
 }
 
 }  // namespace medial

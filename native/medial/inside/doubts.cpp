@@ -6,10 +6,10 @@
 namespace medial {
 namespace {
 
-constexpr double kOtherWall = -0.2;  // the cosine between the normals of two walls, at most
+constexpr double kOtherWall = -0.2;  // the cosine between the normals of two walls; chosen: unseen
 // Places closer than this share of the way to the samples are one: there a Voronoi edge meets an
 // edge of the surface, or touches it.
-constexpr double kOnePlace = 1e-3;
+constexpr double kOnePlace = 1e-3;  // chosen: unseen
 
 using Hit = RayCrossings::Hit;
 

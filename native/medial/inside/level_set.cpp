@@ -11,8 +11,8 @@
 namespace medial {
 namespace {
 
-constexpr double kRough = 0.1;  // accepted error of a fall of the winding number, as a share of it
-constexpr double kFine = 1e-6;  // accepted error at a sample
+constexpr double kRough = 0.1;  // share of a fall of the winding number: its error; chosen: unseen
+constexpr double kFine = 1e-6;  // accepted error at a sample; derived: rounding
 constexpr int kMostSteps = 8;   // steps of the secant method; two or three are usual
 constexpr int kBits = 21;       // bits of a lattice coordinate
 constexpr int64_t kCells = int64_t{1} << kBits;

@@ -17,10 +17,10 @@
 namespace medial {
 namespace {
 
-constexpr double kAside = 4;              // places are this many times as far behind their face
+constexpr double kAside = 4;              // places are as far behind their face; chosen: unseen
 constexpr size_t kFaces = 64;             // of a part that are tested
-constexpr double kFromCorner = 1.0 / 64;  // of the way to the middle
-constexpr double kBounding = 0.75;        // of the area of an open part, if it is no sheet
+constexpr double kFromCorner = 1.0 / 64;  // of the way to the middle; chosen: unseen
+constexpr double kBounding = 0.75;  // of the area of an open part that is no sheet; chosen: unseen
 constexpr double kGolden = std::numbers::phi;
 constexpr int32_t kLeafOfBoxes = 4;
 

@@ -128,7 +128,7 @@ int64_t number_of_parts(const Triangulation& t, const CellSides& sides) {
   return count;
 }
 
-constexpr double kWidth = 0.01;  // half the width of a way at its end, as a share of its length
+constexpr double kWidth = 0.01;  // half a way's width at its end, by its length; chosen: unseen
 
 // Returns whether a way is wide enough: there is no width between bodies that touch in an edge or
 // in a corner. At its beginning a way has no width, because Voronoi vertices of pockets may be

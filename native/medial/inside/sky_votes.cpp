@@ -18,11 +18,11 @@ namespace {
 
 constexpr int64_t kPlaces = 8192, kLeastPlaces = 4;  // of all patches together, and of each
 constexpr int kRays = 8;                             // from each side of a place
-constexpr double kLeastCosine = 0.1;                 // of a ray with the normal
+constexpr double kLeastCosine = 0.1;                 // of a ray with the normal; chosen: unseen
 // A smaller share of all rays is chance, for a ray may slip through where faces meet.
-constexpr double kChance = 0.01;
+constexpr double kChance = 0.01;  // chosen: unseen
 // Shares of the rays of the side that sees more, and of the other side, that leave no doubt.
-constexpr double kMost = 0.5, kNearlyNone = 0.1;
+constexpr double kMost = 0.5, kNearlyNone = 0.1;  // chosen: unseen
 
 // A place on a face, and a unit normal towards the front of its patch.
 struct Place {

@@ -10,8 +10,8 @@
 namespace medial {
 namespace {
 
-constexpr double kFull = 4 * std::numbers::pi;
-constexpr int32_t kLeafTriangles = 8;  // as many as close a small opening
+constexpr double kFull = 4 * std::numbers::pi;  // derived: 4 pi
+constexpr int32_t kLeafTriangles = 8;           // as many as close a small opening
 
 // Returns the signed solid angle of a triangle seen from the origin (van Oosterom & Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {

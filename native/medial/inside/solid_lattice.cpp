@@ -11,8 +11,8 @@ namespace {
 
 constexpr int64_t kFirst = 32;  // places along the longest side of the box at the beginning
 constexpr int64_t kRows = 64;   // rows of one piece of work
-constexpr double kEmpty = 1e6;  // a lattice with more places, none of them inside, counts as empty
-constexpr double kLeast = 1.05, kLargest = 8;
+constexpr double kEmpty = 1e6;  // places, none of them inside: it is empty; work: memory
+constexpr double kLeast = 1.05, kLargest = 8;  // work: time
 // This is the offset of a place in its cell of the lattice. It is not in a plane of symmetry, where
 // models have edges.
 constexpr Vec3 kShift{0.4142, 0.5303, 0.4641};

@@ -10,16 +10,16 @@ namespace {
 // This replaces std::hypot, which would require a newer C library than the module may need.
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-constexpr double kBand = 0.1;       // share of the radius; farther samples are on other walls
-constexpr double kFarthest = 0.05;  // share of the radius; one step moves the centre no farther
+constexpr double kBand = 0.1;  // of the radius; farther samples are on other walls; chosen: axis
+constexpr double kFarthest = 0.05;  // of the radius; no step moves the centre farther; chosen: axis
 // share of the radius; a fit that would move so far fits something else
-constexpr double kTooFar = 0.15;
-constexpr double kSteep = 0.7;   // slope from which trust falls; it is 0 at kSteepest
+constexpr double kTooFar = 0.15;  // chosen: axis
+constexpr double kSteep = 0.7;   // slope from which trust falls; it is 0 at kSteepest; chosen: axis
 constexpr int kFewest = 12;      // samples that a fit needs
 constexpr int kNewtonSteps = 1;  // steps of Newton's method
-constexpr double kKept = 0.25;  // share of its curvature on a cone that the distance keeps at least
+constexpr double kKept = 0.25;   // share of a cone's curvature that stays at least; chosen: axis
 // share of a column; smaller pivots mean that the samples do not determine all unknowns
-constexpr double kPivot = 1e-9;
+constexpr double kPivot = 1e-9;  // derived: rounding
 
 // The distance of a sample from the nearest ball of the canal is r . q + u . (x . q), where q = (1,
 // t, t^2), t is the place of the ball's centre along the axis, and u is the part across the tangent

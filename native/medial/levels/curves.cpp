@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kSmoothings = 20, kFits = 3;
 // share of the radius; after a smaller move another fit changes about its square
-constexpr double kSettled = 0.002;
+constexpr double kSettled = 0.002;  // chosen: axis
 // share of the radius; smaller errors of a straight axis need no other fit
-constexpr double kStraight = 2e-5;
-constexpr double kStep = 0.25;        // between new vertices, in spacings
-constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings
+constexpr double kStraight = 2e-5;    // chosen: axis
+constexpr double kStep = 0.25;        // between new vertices, in spacings; chosen: axis
+constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings; chosen: axis
 constexpr size_t kNeighbours = 12;    // samples that determine the spacing
 constexpr int64_t kFewVertices = 16;  // given to a thread at a time
 
@@ -74,7 +74,7 @@ std::vector<double> steps_along(std::span<const Vec3> line, std::span<const doub
 }
 
 // The spacing of samples that nearly coincide does not suit a line far away from them.
-constexpr double kMostPerEdge = 64;  // number of steps, on average
+constexpr double kMostPerEdge = 64;  // number of steps, on average; work: memory
 
 // Returns the fewest steps of a chain. With fewer it would lie on other wires, or on facets, that
 // have the same ends.

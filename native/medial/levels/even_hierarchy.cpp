@@ -16,7 +16,7 @@ using Parts = Hierarchy::Parts;
 constexpr Bar kBar{0, 0.1, 0.2, 0.5, 0.6, 1};
 // The thickness, as a share of the diagonal, that every triangle has, so that the levels without
 // thresholds are the whole mesh.
-constexpr double kLeastThickness = 1e-30;
+constexpr double kLeastThickness = 1e-30;  // derived: above 0, below every thickness
 
 // The mesh was chosen by the thresholds and the thickness in spacings, so no triangle is to be
 // doubted by its spacings again. With higher thresholds it may be selected no more.

@@ -15,14 +15,14 @@ namespace {
 
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
-constexpr double kEdge = 2.85;  // the wanted length of an edge: 1.7 times the distance of samples
-constexpr double kLeastEdge = 1.45;  // in narrow sheets, where there is nothing to gain below
+constexpr double kEdge = 2.85;      // the edge wanted: 1.7 distances of samples; chosen: axis
+constexpr double kLeastEdge = 1.45; // in narrow sheets: nothing to gain below; chosen: axis
 // where a sheet is curved: half the distance of samples, below which they know no curvature
-constexpr double kLeastOfCurved = 0.8;
-constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart
-constexpr double kOfArea = 2.5;   // the same in sides of a facet, which are long in rough scans
-constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet
-constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most
+constexpr double kLeastOfCurved = 0.8;  // derived: 0.5 / 0.6
+constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart; chosen: axis
+constexpr double kOfArea = 2.5;   // the same in sides of a facet, for rough scans; chosen: axis
+constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet; chosen: axis
+constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most; chosen: axis
 constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
 constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
 

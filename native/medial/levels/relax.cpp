@@ -9,10 +9,10 @@
 namespace medial {
 namespace {
 
-constexpr double kNearTip = 4;      // spacings from the loose end of a curve to the tip of a cone
-constexpr double kClearOfTip = 3;   // spacings from a tip to where samples determine the curve
-constexpr double kLikeACone = 0.2;  // the largest deviation from the radius half way to a tip
-constexpr double kBluntest = 0.95;  // the sine of half the angle of a cone with a tip
+constexpr double kNearTip = 4;      // spacings from a curve's loose end to a tip; chosen: unseen
+constexpr double kClearOfTip = 3;   // spacings from a tip: samples fix the curve; chosen: unseen
+constexpr double kLikeACone = 0.2;  // deviation from the radius half way to a tip; chosen: unseen
+constexpr double kBluntest = 0.95;  // half the angle of a cone with a tip: its sine; chosen: unseen
 
 // Ends curves in the tips of cones. Near a tip samples hardly determine a curve, so that it goes
 // straight on where the balls are larger there.

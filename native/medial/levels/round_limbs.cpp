@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-constexpr double kRound = 0.5;  // share of the length of a chain
+constexpr double kRound = 0.5;  // share of the length of a chain; chosen: unseen
 
 // Holds wires that were each removed with a vertex, and the vertices that they lead to. All of them
 // end somewhere without facets, so they are a forest, whose roots are vertices that stay.

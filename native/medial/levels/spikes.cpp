@@ -6,7 +6,7 @@
 namespace medial {
 namespace {
 
-constexpr double kDisc = 1.5;  // radius of the disc, in erosion thicknesses
+constexpr double kDisc = 1.5;  // radius of the disc, in erosion thicknesses; chosen: unseen
 constexpr int kEven = 4;       // rounds that even out values along the rims
 
 Vec3 middle(const InnerComplex& complex, int32_t facet) {

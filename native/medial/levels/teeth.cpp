@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-constexpr double kTooth = 0.65;  // share of the boundary of a facet that is free, at least
+constexpr double kTooth = 0.65;  // share of a facet's boundary that is free; chosen: unseen
 constexpr int kPasses = 3;       // teeth may be several facets long
 
 class Trimmer {

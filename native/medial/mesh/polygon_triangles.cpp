@@ -37,9 +37,9 @@ using Ring = std::vector<int32_t>;  // places of corners in the polygon
 // More corners would take too long, because the time grows with their cube.
 constexpr size_t kMostForLeastArea = 64;
 // The weight of a squared length relative to an area: above rounding, and below all that counts.
-constexpr double kShortDiagonals = 1e-13;
+constexpr double kShortDiagonals = 1e-13;  // derived: rounding
 // One way of cutting a quad is better if its area is at most this share of that of the other way.
-constexpr double kClearlyLess = 0.75;
+constexpr double kClearlyLess = 0.75;  // chosen: unseen
 
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);

@@ -11,8 +11,8 @@
 namespace medial {
 namespace {
 
-constexpr double kLength = 1e-6;  // extra cost of length, which prefers short edges
-constexpr double kSame = 1e-12;   // costs that differ by a smaller share of the largest are equal
+constexpr double kLength = 1e-6;  // cost of length, which prefers short edges; derived: rounding
+constexpr double kSame = 1e-12;   // of the largest: costs closer are equal; derived: rounding
 
 struct Candidate {
   double cost = 0;

@@ -15,8 +15,8 @@
 namespace medial {
 namespace {
 
-constexpr double kMostPoints = INT_MAX / 8;  // as many as an analysis accepts
-constexpr double kCovered = 1e-6;            // share of the spacing; deeper points are covered
+constexpr double kMostPoints = INT_MAX / 8;  // as an analysis accepts; derived: 32-bit ids
+constexpr double kCovered = 1e-6;  // of the spacing; deeper points are covered; derived: rounding
 
 class Painter {
  public:

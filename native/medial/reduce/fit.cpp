@@ -16,9 +16,9 @@ namespace {
 constexpr int kSteps = 12;
 constexpr int kHalvings = 3;
 constexpr int kSolverSteps = 100;
-constexpr double kDamping = 0.1;  // share of its weight that holds a sphere where it is
-constexpr double kExact = 1e-9;   // share of the extent; smaller distances need no fit
-constexpr double kReach = 0.5;    // share of its radius by which a sphere may change
+constexpr double kDamping = 0.1;  // share of its weight that holds a sphere; chosen: axis
+constexpr double kExact = 1e-9;   // of the extent; smaller distances need no fit; derived: rounding
+constexpr double kReach = 0.5;    // share of its radius by which a sphere may change; chosen: axis
 
 // per sphere: steps of the centre and of the radius
 using Step = std::vector<std::array<double, 4>>;

@@ -42,7 +42,7 @@ class Quadric {
   // Returns the sphere with the least sum; if many have nearly the least, the one nearest to
   // `near`. Returns nothing if rounding hides it.
   std::optional<Sphere> best(const Sphere& near) const {
-    constexpr double kPull = 1e-6;
+    constexpr double kPull = 1e-6;  // derived: rounding
     const double pull = kPull * weight_;
     const std::array<double, 4> m{near.centre.x, near.centre.y, near.centre.z, near.radius};
     double a[4][5];

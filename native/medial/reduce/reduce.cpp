@@ -16,7 +16,7 @@ namespace medial {
 namespace {
 
 // share of the extent; deeper places are not on the surface
-constexpr double kShareCovered = 0x1p-10;
+constexpr double kShareCovered = 0x1p-10;  // chosen: axis, midsurface
 constexpr size_t kFitted = 1 << 14, kFittedPerSphere = 16;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {

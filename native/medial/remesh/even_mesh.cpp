@@ -8,12 +8,12 @@ namespace {
 
 // The cosine of the angle by which no change may turn a triangle, so that sheets do not fold: 70
 // degrees.
-constexpr double kMostTurn = 0.342;
+constexpr double kMostTurn = 0.342;  // chosen: axis
 // A triangle lower than this share of its longest edge is a needle, whose normal is rounding and
 // noise of the samples.
-constexpr double kNeedle = 0.02;
+constexpr double kNeedle = 0.02;  // chosen: axis
 // The cosine of the angle by which a sheet may turn at an edge: 120 degrees.
-constexpr double kFold = -0.5;
+constexpr double kFold = -0.5;  // chosen: axis
 
 using Places = std::array<Vec3, 3>;
 

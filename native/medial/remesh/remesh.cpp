@@ -10,12 +10,12 @@ namespace medial {
 namespace {
 
 constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
-constexpr double kCrumpled = 0.5;       // the cosine between facets of a sheet that is not flat
-constexpr double kFewCollapses = 0.01;  // of the vertices end the passes
+constexpr double kCrumpled = 0.5;       // the cosine between facets that are not flat; chosen: axis
+constexpr double kFewCollapses = 0.01;  // of the vertices end the passes; chosen: axis
 constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
-constexpr double kStep = 0.5;           // of the way to there, which levels a zigzag at once
+constexpr double kStep = 0.5;  // of the way to there, which levels a zigzag at once; chosen: axis
 // A step back, a little longer, keeps lines from shrinking where they bend (Taubin 1995).
-constexpr double kStepBack = -0.53;
+constexpr double kStepBack = -0.53;  // derived: 1 / (0.113 - 1 / kStep)
 
 class Remesher {
  public:

@@ -12,7 +12,7 @@ namespace medial {
 
 // An edge longer than the first share of its target is split, one shorter than the second share is
 // collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
-inline constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
+inline constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;  // derived: neither makes work
 
 struct RemeshOptions {
   // Curves move to the middle of their neighbours, too, which takes the zigzag of samples off them;

@@ -9,23 +9,23 @@ namespace {
 // The largest flat part at a vertex may be a wall beside triangles that are so many times smaller.
 // It is one beside a bevel if it is so many times as wide as these reach from it, or reaches so
 // many times as far from their edge. A ring on top of a tube is as wide as the next rows.
-constexpr double kDominant = 8, kWide = 2;
+constexpr double kDominant = 8, kWide = 2;  // chosen: axis
 // Beside a bevel the turn from a wall to the bevel is no larger than those of the bevel; beside the
 // narrow rows of a smooth surface it is as large as the wall is wide. Edges along the same bevel
 // are parallel up to this cosine.
-constexpr double kTurn = 2, kAlong = 0.9;
+constexpr double kTurn = 2, kAlong = 0.9;  // chosen: thickness
 // The rows of a fillet are equal, and turn twice as far from one to the next as from the wall to
 // the first one. So a wall beside them need not be much larger than a row.
-constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;
+constexpr double kLarger = 1.25, kEqual = 0.05, kRowsAlong = 0.999;  // chosen: thickness
 // A strip of a fillet ends beside the rows of a sphere, which may be hardly smaller. It is straight
 // if it is so many times as large as these, reaches as many times as far from their edge, and turns
 // no more than they do.
-constexpr double kLong = 4;
-// A single triangle, or a wall that is not quite flat, has to reach so many times as far from each
-// edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
-constexpr double kFar = 8, kTinyTurn = 0.01;
+constexpr double kLong = 4;  // chosen: unseen
+// A single triangle, or a wall that is not quite flat, has to reach kDominant times as far from
+// each edge as the small triangle there, and to turn as beside a bevel, or hardly at all.
+constexpr double kTinyTurn = 0.01;  // chosen: unseen
 // Large triangles that turn by less are of one wall.
-constexpr double kOnePlane = 0.05;
+constexpr double kOnePlane = 0.05;  // chosen: unseen
 
 bool agree(double a, double b) { return std::abs(a - b) <= kEqual * std::max(a, b); }
 
@@ -124,7 +124,7 @@ class Walls {
         here.narrow |= across < kWide * reach;
         here.bevel |= bevel;
       }
-      if (across >= kFar * reach)
+      if (across >= kDominant * reach)
         (bevel || turn(edge) <= kTinyTurn ? here.straight : here.curved) = true;
     }
   }

@@ -13,7 +13,7 @@ namespace medial {
 namespace {
 
 // Lattice steps in one radius; this gives at least six candidates for every disc that has room.
-constexpr double kSteps = 2;
+constexpr double kSteps = 2;  // chosen: axis
 
 double median_radius(std::span<const Disk> disks) {
   std::vector<double> radii;

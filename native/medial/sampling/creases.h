@@ -9,6 +9,9 @@
 
 namespace medial {
 
+// Angles that are closer are one, for coordinates come from float32.
+inline constexpr double kAngleRounding = 1e-5;  // derived: rounding of a float
+
 // Vertices with the same coordinates are one; every triangle is there once, in either orientation.
 struct TriangleMesh {
   std::vector<Vec3> points;         // (v) distinct and used, in ascending order of `row`

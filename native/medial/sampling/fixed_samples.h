@@ -11,7 +11,7 @@
 namespace medial {
 
 // squared spacing if each sample has the area 1
-inline constexpr double kHexagonal = 2 / std::numbers::sqrt3;
+inline constexpr double kHexagonal = 2 / std::numbers::sqrt3;  // derived: 2 / sqrt(3)
 // The radius of a disc for a spacing is such that there are as many discs as points of the
 // hexagonal lattice.
 inline const double kDisk = std::sqrt(kPacking / kHexagonal);

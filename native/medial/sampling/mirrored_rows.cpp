@@ -8,7 +8,7 @@ namespace {
 constexpr int kMostTriangles = 1 << 12;
 // A way out of a triangle that is longer than the way to its third corner by more than rounding is
 // none: the walk is parallel to a side.
-constexpr double kPastCorner = 1 + 1e-9;
+constexpr double kPastCorner = 1 + 1e-9;  // derived: 1 and rounding
 
 // Holds a triangle in the plane: the edge where the walk enters is on the x axis, and the third
 // corner above it.

@@ -8,9 +8,9 @@ namespace {
 
 // A crease continues where a shared normal would bend an edge by more than the height of a triangle
 // next to it, along an edge that leaves all others at most this much of that.
-constexpr double kRise = 1, kStraight = 0.2;
+constexpr double kStraight = 0.2;  // chosen: unseen
 // A mitre ends where its turn falls below a tenth from one edge to the next, as on a flat face.
-constexpr double kFlat = 0.1;
+constexpr double kFlat = 0.1;  // chosen: unseen
 
 // The triangles around a vertex, from a spoke on: each lies between its spoke and the next one.
 struct Ring {
@@ -58,7 +58,7 @@ class Mitres {
   Onward onward(int32_t crease, int32_t at, double most) const {
     const Ring ring = ring_at(crease, at);
     Onward best;
-    if (rise(ring, at, ring.spokes.size()) <= kRise) return {};
+    if (rise(ring, at, ring.spokes.size()) <= 1) return {};
     best.rise = kStraight;
     for (size_t i = 1; i < ring.spokes.size(); ++i) {
       const int32_t e = creases_.find(at, ring.spokes[i]);

@@ -10,17 +10,15 @@ namespace {
 
 constexpr int32_t kLeafOfWalls = 4;
 constexpr int kMostShrinkings = 32;
-constexpr double kFacing = 0.5;  // the cosine of 60 degrees
-constexpr double kUpright =
-    0.94;  // the cosine between a normal and the way to the centre, at least
+constexpr double kUpright = 0.94;  // cosine of a normal and the way to the centre; chosen: unseen
 constexpr int kMostSteps = 12;
-constexpr double kPrecise = 1e-12;  // in barycentric coordinates
+constexpr double kPrecise = 1e-12;  // in barycentric coordinates; derived: rounding
 // A ball touches where it is not cut deeper than by this share of its radius.
-constexpr double kTouching = 1e-9;
+constexpr double kTouching = 1e-9;  // derived: rounding
 // Walls closer than this share of the reach meet there.
-constexpr double kMeeting = 1e-8;
+constexpr double kMeeting = 1e-8;  // derived: rounding
 constexpr size_t kMostInColumn = 32;
-constexpr double kTight = 0.5;  // of the reach, up to which places are tight
+constexpr double kTight = 0.5;  // of the reach, up to which places are tight; chosen: axis
 
 }  // namespace
 
@@ -66,7 +64,7 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
       [&](const Node& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const int32_t t = order_[i];
-          if (!(sign * dot(mesh_.normal[t], normal) < -kFacing)) continue;
+          if (!(sign * dot(mesh_.normal[t], normal) < kOpposite)) continue;
           const auto& [p, q, r] = mesh_.triangles[t];
           const Barycentric at =
               closest_on_flat(mesh_.points[p], mesh_.points[q], mesh_.points[r], centre);

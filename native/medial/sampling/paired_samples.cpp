@@ -10,13 +10,13 @@ namespace {
 // A partner may be moved onto a crease, or to a sample, by this share of the distance of the walls.
 // Where that is less than a disc's radius, the share is smaller: the facet between partners is as
 // wide as the disc, and must not leave the wall when it turns.
-constexpr double kMoved = 0.14;
-constexpr double kReplaced = 1.03;       // radii from a partner on the same crease
+constexpr double kMoved = 0.14;          // chosen: axis
+constexpr double kReplaced = 1.03;       // radii from a partner on the same crease; chosen: unseen
 constexpr int kMostReflections = 3;      // from crease to crease
-constexpr double kOneDirection = 0.866;  // faces of a corner within 30 degrees look one way
-constexpr double kAcute = -0.2;          // the cosine between the normals of an acute edge
-constexpr double kRimThickness = 0.5;    // of the radius, at most
-constexpr double kRim = 2;               // thicknesses from an edge to the row next to it
+constexpr double kOneDirection = 0.866;  // 30 degrees: faces look one way; chosen: unseen
+constexpr double kAcute = -0.2;  // the cosine between the normals of an acute edge; chosen: unseen
+constexpr double kRimThickness = 0.5;  // of the radius, at most; chosen: axis
+constexpr double kRim = 2;  // thicknesses from an edge to the row next to it; chosen: axis
 
 double tolerance_of(const FixedSample& sample, double thickness) {
   return kMoved * std::min(thickness, sample.radius) * std::min(1.0, thickness / sample.radius);

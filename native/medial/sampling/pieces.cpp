@@ -9,8 +9,8 @@ namespace medial {
 namespace {
 
 constexpr int kMostDepth = 15;        // as many cuts as a path can hold
-constexpr double kLittleArea = 0.25;  // in squared spacings; it gets one sample or none
-constexpr double kOneSpacing = 2;     // a ratio; spacings that differ by less are equal
+constexpr double kLittleArea = 0.25;  // squared spacings; it gets one sample at most; chosen: axis
+constexpr double kOneSpacing = 2;     // a ratio; spacings that differ less are equal; chosen: axis
 
 Barycentric middle(const Barycentric& p, const Barycentric& q) {
   return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};

@@ -18,7 +18,7 @@ namespace medial {
 // wall, too.
 class SizingField {
  public:
-  static constexpr double kGrading = 0.3;
+  static constexpr double kGrading = 0.3;  // chosen: axis
 
   SizingField(std::span<const Vec3> sites, std::span<const double> spacings, const Run& run,
               bool across = false);

@@ -11,12 +11,12 @@ constexpr int kSlopes = 2, kQuadric = 5, kTerms = 9;
 using Terms = std::array<double, kTerms>;
 // So little is every curvature and cubic term held back, which decides them where the points do
 // not.
-constexpr double kHeldBack = 1e-9;
+constexpr double kHeldBack = 1e-9;  // derived: rounding
 // A surface of more terms counts fully if the mean square of what it leaves is at most the first
 // share of what one of fewer terms leaves, and not at all from the second share on. With noise
 // alone both are about the same. Without a slope between them the two walls of a thin part would
 // differ where one is on this side of a limit and the other on that.
-constexpr double kMuchBetter = 0.01, kNoBetter = 0.1;
+constexpr double kMuchBetter = 0.01, kNoBetter = 0.1;  // chosen: unseen
 
 // Returns the terms for a point at (u, v) along the plane, at a squared distance. On every sphere
 // the height is a slope and a multiple of the squared distance, which makes these exact.

@@ -11,9 +11,6 @@
 namespace medial {
 namespace {
 
-// Rounding decides to which side normals turn that are closer than this.
-constexpr double kLeastTurn = 1e-5;
-
 // Collects the patches that meet somewhere.
 class Meeting {
  public:
@@ -87,11 +84,12 @@ class Patches {
     const bool forward = link_of(mesh_.triangles[a], p)[0] == q;
     const Vec3 along = normalized(mesh_.points[q] - mesh_.points[p]);
     const double turn = dot(cross(mesh_.normal[a], mesh_.normal[b]), along);
-    return (forward ? turn : -turn) > kLeastTurn || folds_back(mesh_.normal[a], mesh_.normal[b]);
+    return (forward ? turn : -turn) > kAngleRounding ||
+           folds_back(mesh_.normal[a], mesh_.normal[b]);
   }
   // Returns whether two normals are so nearly opposite that their turn says nothing.
   static bool folds_back(const Vec3& a, const Vec3& b) {
-    return dot(a, b) < 0 && length(cross(a, b)) <= kLeastTurn;
+    return dot(a, b) < 0 && length(cross(a, b)) <= kAngleRounding;
   }
 
   // Returns the patch of each triangle of the mesh, and counts the patches.

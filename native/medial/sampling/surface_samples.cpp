@@ -160,7 +160,7 @@ class Division {
       : line_(measured(model, chain, spacing)),
         closed_(!begins_at_corner(model, chain, keep_vertices)) {
     // tolerance for a length that is a multiple of the spacing
-    constexpr double kNearlyWhole = 1e-9;
+    constexpr double kNearlyWhole = 1e-9;  // derived: rounding
     const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
     parts_ = std::max(least, std::ceil(total * (1 - kNearlyWhole)));
     if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted the samples
@@ -253,7 +253,7 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
 // Returns one row of a hexagonal lattice along each edge; every other row is staggered.
 std::vector<Pair> mirrored_row(const Model& model, int row, const Divisions& divisions,
                                const Spacing& spacing, const Run& run) {
-  constexpr double kFirstRow = 0.75, kNextRow = 0.85;
+  constexpr double kFirstRow = 0.75, kNextRow = 0.85;  // chosen: axis
   return parallel_append<Pair>(
       static_cast<int64_t>(divisions.size()), run,
       [&](int64_t i, std::vector<Pair>& out, int) {
@@ -383,7 +383,7 @@ double wanted_count(const Model& model, const SamplingOptions& options) {
 }
 
 // This bounds the samples on creases in the first attempt, as a multiple of the count.
-constexpr double kMostOnCreases = 256;
+constexpr double kMostOnCreases = 256;  // work: memory
 
 // Changes the spacing until the count is met within a hundredth; returns the nearest attempt.
 Attempt sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
@@ -419,7 +419,7 @@ Expected bounded(const Model& model, int64_t count, Spacing& spacing, const Run&
 
 // If a count bounds the samples, no spacing is below this share of the longest edge, so that pieces
 // are not cut too finely.
-constexpr double kFinestSpacing = 0x1p-24;
+constexpr double kFinestSpacing = 0x1p-24;  // work: memory
 
 double longest_edge(const TriangleMesh& mesh) {
   double longest = 0;
@@ -509,7 +509,7 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
 // Returns the largest curvature across the sides of a triangle: the turn of the normals over the
 // way between the middles of the triangles.
 double bend_of(const Model& model, int32_t triangle) {
-  constexpr double kMiddle = 0.4;  // of the heights over the common side
+  constexpr double kMiddle = 0.4;  // of the heights over the common side; chosen: axis
   const auto &points = model.mesh.points, &normal = model.mesh.normal;
   const auto& triangles = model.mesh.triangles;
   const Triangle& t = triangles[triangle];

@@ -7,7 +7,7 @@ namespace medial {
 namespace {
 
 constexpr int kTerms = 6;
-constexpr double kSmallestPivot = 1e-9;  // of a diagonal element: beyond it columns depend
+constexpr double kSmallestPivot = 1e-9;  // of a diagonal element: columns depend; derived: rounding
 using Equations = NormalEquations<kTerms>;
 using Terms = Equations::Terms;
 

@@ -11,13 +11,13 @@ namespace {
 
 constexpr size_t kFirst = 12;      // points of the smallest neighbourhood
 constexpr size_t kMost = 500;      // points of the largest
-constexpr double kFirstNoise = 3;  // the smallest radius, in units of the noise
-constexpr double kStep = 1.3;      // from radius to radius where one is chosen
-constexpr double kLeap = 1.7;      // from radius to radius where it is known
-constexpr double kAgree = 2;       // standard errors within which neighbourhoods agree
-constexpr double kSheet = 4;       // units of the noise beyond which a point is of another sheet
-constexpr double kStray = 5;       // units of the noise beyond which a point is of no sheet
-constexpr size_t kBeside = 8;      // places whose radii are compared
+constexpr double kFirstNoise = 3;  // the smallest radius, in units of the noise; chosen: unseen
+constexpr double kStep = 1.3;      // from radius to radius where one is chosen; chosen: axis
+constexpr double kLeap = 1.7;      // from radius to radius where it is known; chosen: unseen
+constexpr double kAgree = 2;   // standard errors within which neighbourhoods agree; chosen: unseen
+constexpr double kSheet = 4;   // noises to a point of another sheet; chosen: axis
+constexpr double kStray = 5;   // noises beyond which a point is of no sheet; chosen: unseen
+constexpr size_t kBeside = 8;  // places whose radii are compared
 
 struct Near {
   double squared;

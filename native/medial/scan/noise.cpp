@@ -12,22 +12,21 @@ namespace {
 constexpr std::array<size_t, 10> kSizes{10, 16, 24, 36, 54, 80, 120, 180, 270, 400};
 constexpr int64_t kPlaces = 1500;  // determine a median to 3 percent
 constexpr int64_t kPlacesOfFaces = 500;
-constexpr double kPlateau = 1.2;   // a smaller growth from size to size is no curvature
-constexpr double kLargest = 0.12;  // of the diagonal: a larger neighbourhood is the shape itself
+constexpr double kPlateau = 1.2;  // less growth is no curvature; measured: lab/scans.md, growth
 // The median distance of even samples to their nearest neighbour, in units of the root of the area
 // that each has.
-constexpr double kNearest = 0.85;
-constexpr double kLeast = 0.01;  // spacings: less is rounding, not noise
-constexpr double kSeen = 0.8;    // of the residual that noise shows in the smallest neighbourhood
+constexpr double kNearest = 0.85;  // measured: even samples
+constexpr double kLeast = 0.01;    // spacings: less is rounding, not noise; chosen: unseen
+constexpr double kSeen = 0.8;      // of the residual that small neighbourhoods show; chosen: axis
 // Pairs of the 24 nearest points are compared by their heights over the quadric of 54.
 constexpr size_t kPaired = 2, kUnder = 4;  // among the sizes
-constexpr double kSame = 0.05;             // standard deviations between points of the same height
-constexpr double kOfErrors = 0.0282;       // the share of pairs of errors that are as close
+constexpr double kSame = 0.05;  // deviations between points of the same height; chosen: unseen
+constexpr double kOfErrors = 0.0282;  // pairs of errors as close; derived: erf(kSame / 2)
 // Vertices of faces are compared with fewer neighbours: those whose normals look the same way.
 constexpr size_t kOfFaces = 8;         // of the sizes
 constexpr size_t kLeastOfFaces = 3;    // among the sizes, the one to whose quadric vertices move
-constexpr double kWider = 1.15;        // a smaller growth from there on, and the next one will do
-constexpr double kSeenOfFaces = 0.15;  // as kSeen, of the noise: steps are smooth one by one
+constexpr double kWider = 1.15;        // less growth from there on; measured: lab/scans.md, growth
+constexpr double kSeenOfFaces = 0.15;  // as kSeen, of the noise; measured: lab/scans.md, fandisk
 
 struct Ladder {
   std::array<double, kSizes.size()> spread{}, radius{}, kurtosis{};
@@ -216,13 +215,13 @@ NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run,
   };
   const NoiseFigures none{spacing_at(2)};
   if (static_cast<size_t>(tree.size()) <= kSizes[4]) return none;
-  const auto [best, last] = plateau_of(measured, all, kLargest * diagonal);
+  const auto [best, last] = plateau_of(measured, all, kWidest * diagonal);
   if (best == 0) return none;
   const double noise = all.spread[best], spacing = spacing_at(best);
   if (noise < kLeast * spacing) return none;
   const double seen = measured.has_faces() ? kSeenOfFaces : kSeen * seen_of(noise / spacing);
   if (all.spread[0] < seen * noise) return none;
-  const size_t wide = widened(measured, all, best, kLargest * diagonal);
+  const size_t wide = widened(measured, all, best, kWidest * diagonal);
   // Beyond the plateau a neighbourhood holds two walls, whose points have the same heights.
   const double mates = last < kUnder ? 0 : all.mates;
   return {spacing, noise, all.kurtosis[best], mates, all.radius[wide]};

@@ -7,7 +7,9 @@
 
 namespace medial {
 
-constexpr double kSameWay = 0.2;  // the least cosine between normals that look the same way
+constexpr double kSameWay = 0.2;  // least cosine of normals that look one way; chosen: unseen
+// The radius of neighbourhoods, as a share of the diagonal; a larger one is the shape itself.
+constexpr double kWidest = 0.12;  // chosen: axis
 
 struct NoiseFigures {
   double spacing = 0, noise = 0, kurtosis = 3, mates = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scan/outliers.h"
 
+#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -11,10 +12,9 @@ namespace medial {
 namespace {
 
 constexpr size_t kFew = 12;
-constexpr double kAlone = 4;  // times the distance that is usual among the neighbours
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kEmpty = 0.8 * kPi;  // a wider sector without neighbours is a border
-constexpr int64_t kLooked = 4000;     // determine a share of a percent to a fifth of it
+constexpr double kAlone = 4;  // times the distance usual among neighbours; chosen: unseen
+constexpr double kEmpty = 0.8 * std::numbers::pi;  // a wider empty sector: a border; chosen: unseen
+constexpr int64_t kLooked = 4000;  // determine a share of a percent to a fifth of it
 constexpr size_t kAround = 24;
 
 // The neighbours of every point, but itself: (n * kFew) ids, their least and mean distance.
@@ -105,7 +105,7 @@ bool is_border(const PointTree& tree, int32_t place, double reach, std::vector<N
   }
   if (angles.empty()) return false;
   std::sort(angles.begin(), angles.end());
-  double widest = angles.front() + 2 * kPi - angles.back();
+  double widest = angles.front() + 2 * std::numbers::pi - angles.back();
   for (size_t i = 1; i < angles.size(); ++i) {
     widest = std::max(widest, angles[i] - angles[i - 1]);
   }

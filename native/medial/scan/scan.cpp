@@ -13,12 +13,11 @@
 namespace medial {
 namespace {
 
-constexpr double kWidest = 0.12;       // of the diagonal, the radius of neighbourhoods
-constexpr double kApart = 3;           // spacings between places at which neighbourhoods are chosen
-constexpr double kBorder = 6;          // spacings over which a border is looked for
-constexpr double kLeft = 0.05;         // of the new spacing, what may be left of the noise
-constexpr double kOfRadius = 1.0 / 3;  // of the neighbourhood, the largest new spacing
-constexpr double kClose = 0.5;         // of the new spacing, how close moved points may be
+constexpr double kApart = 3;    // spacings between places with neighbourhoods; chosen: axis
+constexpr double kBorder = 6;   // spacings over which a border is looked for; chosen: axis
+constexpr double kLeft = 0.05;  // of the new spacing, what may be left of the noise; chosen: unseen
+constexpr double kOfRadius = 1.0 / 3;  // of the neighbourhood: the widest spacing; chosen: axis
+constexpr double kClose = 0.5;  // of the new spacing, how close moved points may be; chosen: unseen
 
 // Returns the ids that stay if, in an order that is random but always the same, each that is left
 // takes all others within its own distance away; those of distance 0 are taken away.

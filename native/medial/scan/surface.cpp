@@ -11,7 +11,7 @@ namespace medial {
 namespace {
 
 constexpr size_t kFewest = 24;  // neighbours on which a vertex is moved
-constexpr double kFar = 5;      // units of the noise: a vertex that is farther off stays
+constexpr double kFar = 5;      // units of the noise: a vertex farther off stays; chosen: unseen
 
 // The distinct vertices that have a normal, in spatial order. Normals in one place are added.
 struct Vertices {

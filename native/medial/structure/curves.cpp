@@ -9,8 +9,7 @@
 namespace medial {
 namespace {
 
-constexpr double kShort = 1.5;   // spacings
-constexpr double kAtCrease = 2;  // the largest radius at a crease, in spacings
+constexpr double kAtCrease = 2;  // the largest radius at a crease, in spacings; chosen: unseen
 
 // Returns the parts at an edge, ascending and each once.
 std::vector<int32_t> parts_at(const Facets& facets, const AxisParts& parts, int32_t edge) {
@@ -98,7 +97,7 @@ Array<int32_t> connected(const AxisCurves& curves, std::span<const int32_t> key)
 
 }  // namespace
 
-bool AxisCurve::is_long() const { return length > kShort * spacing; }
+bool AxisCurve::is_long() const { return length > kShortCurve * spacing; }
 
 AxisCurves curves_of(const Facets& facets, const AxisParts& parts, const Run& run) {
   AxisCurves curves;

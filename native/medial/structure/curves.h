@@ -6,6 +6,9 @@
 
 namespace medial {
 
+// Shorter curves count for nothing, and places that are closer are one, in spacings.
+inline constexpr double kShortCurve = 1.5;  // chosen: axis
+
 struct AxisCurve {
   CurveKind kind = CurveKind::none;
   std::vector<int32_t> parts;  // ascending

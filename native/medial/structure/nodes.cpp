@@ -9,8 +9,6 @@
 namespace medial {
 namespace {
 
-constexpr double kNear = 1.5;  // spacings
-
 // Finds the places where curves meet or end, and which of them are close to each other.
 class Clusters {
  public:
@@ -58,10 +56,10 @@ class Clusters {
                      [&](int32_t a, int32_t b) { return at[a].x < at[b].x; });
     for (size_t i = 0; i < sorted.size(); ++i) {
       const int32_t a = sorted[i];
-      const double reach = kNear * spacing_[a];
+      const double reach = kShortCurve * spacing_[a];
       for (size_t j = i + 1; j < sorted.size() && at[sorted[j]].x - at[a].x <= reach; ++j) {
         const int32_t b = sorted[j];
-        const double within = std::min(reach, kNear * spacing_[b]);
+        const double within = std::min(reach, kShortCurve * spacing_[b]);
         if (distance(at[a], at[b]) <= within) sets.unite(a, b);
       }
     }

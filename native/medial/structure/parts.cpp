@@ -7,7 +7,7 @@
 namespace medial {
 namespace {
 
-constexpr double kCrumb = 2;  // squared spacings
+constexpr double kCrumb = 2;  // squared spacings; chosen: axis
 
 struct Contact {
   int32_t crumb, other;

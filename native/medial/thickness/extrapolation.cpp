@@ -17,7 +17,7 @@ constexpr int kBeyond = 3;
 bool follows_surface(const Edge& ends, std::span<const Vec3> points, const Tangents& tangents,
                      const Significance& significance) {
   const auto& [p, q] = ends;
-  if (dot(tangents.normals[p], tangents.normals[q]) <= kWallCosine) return false;
+  if (dot(tangents.normals[p], tangents.normals[q]) <= kOpposite) return false;
   const double widest = 2 * std::min(significance.spacing[p], significance.spacing[q]);
   return distance(points[p], points[q]) <= widest;
 }

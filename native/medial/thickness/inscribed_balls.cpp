@@ -15,23 +15,23 @@ namespace {
 constexpr int kMostShrinks = 96;   // next to a convex edge each one halves the ball
 constexpr int kMostSettlings = 8;  // on one triangle
 constexpr int kMostSteps = 16;     // from triangle to triangle, before all others are searched
-constexpr double kInside = 1e-9;   // a place is inside if it is so deep, as a share of the radius
+constexpr double kInside = 1e-9;   // of the radius: a place so deep is inside; derived: rounding
 // Faces whose normals differ by less than 60 degrees from that of a place look almost as it does.
-constexpr double kAlike = 0.5;
+constexpr double kAlike = 0.5;  // derived: -kOpposite
 // Curved triangles know the surface up to this share of their bulge, but at vertices: measured on a
 // torus of 90,000 slanted triangles, whose balls are off by a twentieth.
-constexpr double kUnknown = 1.0 / 16;
-// Normals of walls that are opposite differ by 120 degrees or more, of nearly parallel ones by 165.
-constexpr double kOpposite = -0.5, kParallel = -0.9659258262890683;
+constexpr double kUnknown = 1.0 / 16;  // measured: a twentieth on that torus
+// The normals of nearly parallel walls differ by 165 degrees or more.
+constexpr double kParallel = -0.9659258262890683;  // chosen: unseen
 // Places opposite lie no farther than the root of 3/4 from half of the way to the far end of a
 // ball, in radii; some more for normals that are not quite those of the ball.
-constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr int kMostRolls = 64;     // steps of a ball that rolls
-constexpr double kStill = 1e-9;    // a step is none if it is so short, as a share of the radius
-constexpr double kMet = 1e-6;      // two balls are one if they are so close
+constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;  // derived: sqrt(3 / 4)
+constexpr int kMostRolls = 64;                          // steps of a ball that rolls
+constexpr double kStill = 1e-9;    // of the radius: a shorter step is none; derived: rounding
+constexpr double kMet = 1e-6;      // two balls are one if they are so close; derived: rounding
 constexpr int kMostInVain = 48;    // leaves of the tree of faces
-constexpr double kSmaller = 0.99;  // a ball that is searched to the end, which few faces touch
-constexpr double kNothing = 1e-3;  // a ball of this many roundings is none
+constexpr double kSmaller = 0.99;  // a ball searched to the end: few touch it; work: time
+constexpr double kNothing = 1e-3;  // roundings: a smaller ball is none; derived: rounding
 // In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
 // a tube it then needs no search for this wall. Both walls of a shell may be in one run, so the one
 // before is of those that look about the same way: as the first place of the run, or against it.

@@ -23,7 +23,7 @@ Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& norm
   if (!(height > 0)) return {};
   Width found{squared_length(apart) / height};
   const double cosine = dot(normal_p, normal_q);
-  if (cosine > kWallCosine || (q_at_edge && !q_reflex)) return found;
+  if (cosine > kOpposite || (q_at_edge && !q_reflex)) return found;
   // The ball touches the other wall next to q. A ball tangent to the plane at q, too, has an error
   // smaller by the ratio of the wall's curvature to the ball's, and none between planes.
   found.between = found.diameter;

@@ -8,10 +8,6 @@
 
 namespace medial {
 
-// Two samples are on opposite sides of a wall if their normals differ by 120 degrees or more; this
-// is the cosine.
-inline constexpr double kWallCosine = -0.5;
-
 // This describes the surface at each sample.
 struct Tangents {
   std::vector<Vec3> normals;  // outward unit vectors; zero if unknown

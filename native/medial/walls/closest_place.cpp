@@ -7,8 +7,8 @@ namespace {
 constexpr int kPatchSteps = 24;
 // In barycentric coordinates: a step this short leaves an error of about its square, which is
 // squared again in the distance.
-constexpr double kLastStep = 1e-5;
-constexpr double kNoStep = 1e-9;
+constexpr double kLastStep = 1e-5;  // derived: rounding^(1/4), squared twice
+constexpr double kNoStep = 1e-9;    // derived: rounding
 constexpr int kMostHalvings = 8;
 
 struct Parameters {

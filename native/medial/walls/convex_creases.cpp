@@ -10,12 +10,12 @@ namespace medial {
 namespace {
 
 constexpr int32_t kLeafOfCreases = 4;
-constexpr double kBendsApart = 8;    // spacings between the bends of a line that is meant so
-constexpr double kNearBend = 4;      // spacings from a bend of a zigzag to its straight edges
-constexpr double kLeastPatch = 100;  // squares of the spacing
-constexpr double kLeastCrease = 12;  // spacings along all creases that hang together
+constexpr double kBendsApart = 8;    // spacings between the bends of a meant line; chosen: axis
+constexpr double kNearBend = 4;      // spacings from a zigzag to its straight edges; chosen: axis
+constexpr double kLeastPatch = 100;  // squares of the spacing; chosen: axis, midsurface
+constexpr double kLeastCrease = 12;  // spacings along creases that hang together; chosen: unseen
 constexpr int kCreaseSteps = 16;
-constexpr double kCreasePrecision = 1e-12;  // as a share of the edge
+constexpr double kCreasePrecision = 1e-12;  // as a share of the edge; derived: rounding
 
 double area_of(const TriangleMesh& mesh, int32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];

@@ -15,7 +15,7 @@ constexpr int kMostWalked = 1 << 12;  // triangles of one walk
 constexpr int32_t kLeafOfTree = 2;
 constexpr size_t kFew = 8;  // triangles whose box holds their control points
 // A patch that bulges by less than this share of its size is flat: only rounding bent it.
-constexpr double kFlat = 1e-12;
+constexpr double kFlat = 1e-12;  // derived: rounding
 
 // How exactly the vertices are known does not depend on the frame.
 TriangleMesh mesh_in(const Frame& frame, const FacesInput& input, const Run& run) {

@@ -6,8 +6,8 @@ namespace {
 
 constexpr int kSteps = 12;           // of a centre
 constexpr int kHops = 6;             // from a triangle to the next one for one step
-constexpr double kEqual = 1e-12;     // of the radius, between the two distances
-constexpr double kSmallStep = 1e-4;  // in barycentric coordinates: its cube is the error of a foot
+constexpr double kEqual = 1e-12;     // of the radius, between distances; derived: rounding
+constexpr double kSmallStep = 1e-4;  // of barycentric coordinates; derived: its cube is the error
 
 // The place of a smooth wall that is nearest to a moving point.
 class FollowedFoot {
@@ -119,7 +119,7 @@ std::optional<TouchingBall> followed_ball(const Faces& faces, std::span<int32_t>
     }
     const Vec3 apart = other.away() - one.away();
     const double squared = squared_length(apart);
-    if (!(squared > kSameDirection * kSameDirection)) return {};
+    if (!(squared > kSameFoot * kSameFoot)) return {};
     centre = centre + ((one.distance() - other.distance()) / squared) * apart;
   }
   return {};

@@ -8,11 +8,9 @@ namespace {
 
 // All lengths are in holes: the largest circumradius in the umbrella of a sample, about 0.6 of the
 // distance between samples of blue noise.
-constexpr double kOnCrease = 1e-6;  // from a sample that lies on a crease to that crease
-constexpr double kNearSamples = 6;  // from a place of the faces to a sample, at most
-constexpr double kReach = 1.5;      // from where two tangent planes meet to a crease
-// Cosines between the way from a sample to another and the normals of walls that face each other.
-constexpr double kFacing = 0.5;
+constexpr double kOnCrease = 1e-6;  // from a sample on a crease to that crease; derived: rounding
+constexpr double kNearSamples = 6;  // from a place of the faces to a sample; chosen: axis
+constexpr double kReach = 1.5;  // from where two tangent planes meet to a crease; chosen: unseen
 
 // Returns the point nearest to `at` in which two planes meet.
 Vec3 apex(const Vec3& p, const Vec3& n, const Vec3& q, const Vec3& m, const Vec3& at) {
@@ -113,10 +111,10 @@ bool SamplesOnFaces::are_opposite_reflex_edges(const Edge& samples) const {
   const Vec3 none{};
   if (normals_[p][1] == none || normals_[q][1] == none) return false;
   const Vec3 across = point(q) - point(p);
-  const double steep = kFacing * length(across);
+  const double steep = -kOpposite * length(across);
   for (const Vec3& n : normals_[p]) {
     for (const Vec3& m : normals_[q]) {
-      if (dot(across, n) < -steep && dot(across, m) > steep && dot(n, m) < -kFacing) return true;
+      if (dot(across, n) < -steep && dot(across, m) > steep && dot(n, m) < kOpposite) return true;
     }
   }
   return false;

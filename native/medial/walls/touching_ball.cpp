@@ -7,8 +7,8 @@ namespace medial {
 namespace {
 
 constexpr int kBallSteps = 16;
-constexpr double kRounding = 2e-14;  // of the radius
 constexpr int kPatience = 4;         // steps after which each has to halve the inequality
+constexpr double kRounding = 2e-14;  // of the radius; derived: 100 roundings of 2e-16
 
 struct Feet {
   std::array<Foot, kMostContacts> foot;
@@ -54,7 +54,7 @@ Vec3 step_of(const Feet& feet) {
     std::swap(row[round], row[longest]);
     std::swap(wanted[round], wanted[longest]);
     const double size = length(row[round]);
-    if (size < kSameDirection) break;
+    if (size < kSameFoot) break;
     const Vec3 unit = (1 / size) * row[round];
     const double along = wanted[round] / size;
     step = step + along * unit;

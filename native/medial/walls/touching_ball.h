@@ -8,8 +8,8 @@ namespace medial {
 
 // At most four walls determine a ball in space.
 inline constexpr size_t kMostContacts = 4;
-// Directions to walls that differ by less than about 5 degrees do not determine a place.
-inline constexpr double kSameDirection = 0.08;
+// Directions to feet that differ by less (5 degrees) are those to one foot, and determine no place.
+inline constexpr double kSameFoot = 0.08;  // chosen: axis
 
 struct TouchingBall {
   Vec3 centre;

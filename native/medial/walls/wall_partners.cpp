@@ -6,9 +6,8 @@
 namespace medial {
 namespace {
 
-constexpr double kOtherWay = -0.5;  // the cosine between the outward directions of opposite walls
 // How far one sample is below the wall of the other one, in thicknesses.
-constexpr double kLeastDepth = 0.25, kMostDepth = 2;
+constexpr double kLeastDepth = 0.25, kMostDepth = 2;  // chosen: unseen
 
 }  // namespace
 
@@ -42,7 +41,7 @@ bool WallPartners::are_across(int32_t p, int32_t across_p, int32_t q, int32_t ac
   const auto& at = samples_.points;
   const Vec3 up = at[p] - at[across_p], down = at[q] - at[across_q];
   const double thick_p = length(up), thick_q = length(down);
-  if (!(dot(up, down) < kOtherWay * thick_p * thick_q)) return false;
+  if (!(dot(up, down) < kOpposite * thick_p * thick_q)) return false;
   const double depth = dot(at[p] - at[q], up) / thick_p;
   return depth > kLeastDepth * std::min(thick_p, thick_q) &&
          depth < kMostDepth * std::max(thick_p, thick_q);
