@@ -19,8 +19,7 @@ class EvenPlaces {
   void start_from(std::span<const Placing> placing, std::span<const double> radius);
   // Places all vertices of triangles. What turns a triangle over is refused.
   void place();
-  // Does the same for the last time: balls of rims, where a third wall may be near, are compared
-  // with all faces.
+  // Does the same for the last time: all balls are compared with all faces.
   void finish();
   // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and
   // what is beside them must be placed.
