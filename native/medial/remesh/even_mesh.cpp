@@ -57,11 +57,12 @@ class MovedStar {
   // at which it does not yet.
   bool is_sound() const {
     if (!keeps_sides_) return false;
-    for (size_t i = 0; i < star_.size(); ++i) {
-      if (folds_across(star_[i])) return false;
-      for (size_t j = i + 1; j < star_.size(); ++j) {
-        if (folds_between(star_[i], star_[j])) return false;
-      }
+    for (auto one = star_.begin(); one != star_.end(); ++one) {
+      const bool folds =
+          folds_across(*one) || std::any_of(one + 1, star_.end(), [&](const Moved& other) {
+            return folds_between(*one, other);
+          });
+      if (folded) return false;
     }
     return true;
   }
@@ -89,14 +90,15 @@ class MovedStar {
     return folds(one, other, e_.normal[other], alike);
   }
 
-  // At an edge to a corner that two triangles share, and no third one.
   bool folds_between(const Moved& one, const Moved& other) const {
-    for (const int32_t corner : {one.next, one.last}) {
-      if (other.next != corner && other.last != corner) continue;
-      const bool alike = (one.next == corner) != (other.next == corner);
-      if (folds(one, other.triangle, other.normal, alike) && uses(corner) == 2) return true;
-    }
-    return false;
+    return folds_at(one.next, one, other) || folds_at(one.last, one, other);
+  }
+
+  // At an edge to a corner that two triangles share, and no third one.
+  bool folds_at(int32_t corner, const Moved& one, const Moved& other) const {
+    if (other.next != corner && other.last != corner) return false;
+    const bool alike = (one.next == corner) != (other.next == corner);
+    return folds(one, other.triangle, other.normal, alike) && uses(corner) == 2;
   }
 
   int64_t uses(int32_t corner) const {
