@@ -58,7 +58,7 @@ class MovedStar {
   bool is_sound() const {
     if (!keeps_sides_) return false;
     for (auto one = star_.begin(); one != star_.end(); ++one) {
-      const bool folds =
+      const bool folded =
           folds_across(*one) || std::any_of(one + 1, star_.end(), [&](const Moved& other) {
             return folds_between(*one, other);
           });
