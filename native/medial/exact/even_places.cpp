@@ -330,7 +330,9 @@ void EvenPlaces::even_out(std::span<const int32_t> rims, std::span<const SmoothR
   for (const int32_t v : rims) {
     if (!(rough[v] < kRough) && !way[v].at_wall) {
       step[v] = 0;
-    } else if (raw[v] < 0 || way[v].at_wall) {
+    } else if (way[v].at_wall) {
+      step[v] = raw[v];
+    } else if (raw[v] < 0) {
       step[v] = std::min(step[v], raw[v]);  // there is nothing beyond the end
     }
   }

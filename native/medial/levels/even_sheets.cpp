@@ -15,8 +15,8 @@ namespace {
 
 // Lengths are in holes between the samples, the largest circumradii of their umbrellas. Samples of
 // blue noise are about 1.65 holes apart.
-constexpr double kEdge = 2.85;       // the edge wanted: 1.7 distances of samples; chosen: axis
-constexpr double kLeastEdge = 1.45;  // in narrow sheets: nothing to gain below; chosen: axis
+constexpr double kEdge = 2.8;       // the edge wanted: 1.7 distances of samples; chosen: axis
+constexpr double kLeastEdge = 1.3;  // in narrow sheets: nothing to gain below; chosen: axis
 // where a sheet is curved: half the distance of samples, below which they know no curvature
 constexpr double kLeastOfCurved = 0.8;  // derived: 0.5 / 0.6
 constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart; chosen: axis
