@@ -792,8 +792,8 @@ MUTATIONS = (
     # ---- all
     Mutation(
         "analyse.cpp",
-        "  if (surface.closed()) return SidesFrom::surface;",
-        "  if (!surface.triangles.empty()) return SidesFrom::surface;",
+        "automatic_sides(surface.closed(), has_normals)",
+        "automatic_sides(!surface.triangles.empty(), has_normals)",
         "open faces tell inside from outside unasked",
         python=("test_sides_from.py",),
     ),
