@@ -11,7 +11,7 @@ constexpr int64_t kFew = 64;         // vertices that a thread takes at a time
 constexpr double kSamePlace = 1e-3;  // target lengths between places that are one; chosen: unseen
 constexpr double kMostSlide = 0.7;   // of the target length that a rim moves at once; chosen: axis
 constexpr double kAtEnd = 0.1;  // target lengths: a rim that moves less has ended; chosen: unseen
-constexpr double kRimOpenness = 0.004;  // of a rim; chosen: axis
+constexpr double kRimOpenness = 0.004;  // of a rim, whose feet are 7 degrees apart; chosen: axis
 constexpr double kPlate = 0.9;  // the openness of a plate with nearly parallel sides; chosen: axis
 constexpr double kRimSlope = 0.2;  // of the steps along a rim; chosen: axis
 constexpr double kRough = 0.05;    // mean deviation of steps, in target lengths; chosen: axis
@@ -110,7 +110,7 @@ Touch EvenPlaces::ball_at(int32_t v) const {
 
 // Returns the walls of the nearest sample on each side of a sheet; none where sheets meet.
 Walls EvenPlaces::nearest_walls(int32_t v) const {
-  if (e_.mesh.stratum(v) != Stratum::sheet && !is_rim(v)) return {};
+  if (e_.mesh.stratum(v) != Stratum::sheet && !e_.mesh.is_rim(v)) return {};
   const Vec3 across = normal_at(e_, v);
   std::array<int32_t, 2> wall{-1, -1};
   std::array<double, 2> least{HUGE_VAL, HUGE_VAL};
@@ -144,8 +144,7 @@ std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
 Touch EvenPlaces::ball_of_walls(int32_t v) const {
   const auto smooth = smooth_ball_at(v, e_.position[v], nearest_walls(v));
   const bool is_found = smooth && smooth->radius > 0;
-  if (is_found && !finishes_) return *smooth;
-  if (is_found && is_empty(samples_, *smooth, hole_at(v))) return *smooth;
+  if (is_found && (!finishes_ || is_empty(samples_, *smooth, hole_at(v)))) return *smooth;
   const Walls walls = walls_of(v);
   if (walls.count < 2) return {};
   const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
@@ -231,11 +230,7 @@ std::vector<int32_t> EvenPlaces::open_rims() const {
 }
 
 bool EvenPlaces::is_open_rim(int32_t v) const {
-  return e_.mesh.has_triangles(v) && e_.held[v] == kFree && is_rim(v);
-}
-
-bool EvenPlaces::is_rim(int32_t v) const {
-  return e_.mesh.stratum(v) == Stratum::curve && e_.mesh.uses(v, e_.mesh.along_curve(v)[0]) == 1;
+  return e_.mesh.has_triangles(v) && e_.held[v] == kFree && e_.mesh.is_rim(v);
 }
 
 SmoothRim EvenPlaces::way_out(int32_t v) const {

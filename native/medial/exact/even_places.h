@@ -32,8 +32,6 @@ class EvenPlaces {
   // (v) of the ball that touches the faces, where the placing is `touching` or more
   const std::vector<double>& radius() const { return radius_; }
 
-  bool last_round = false;
-
  private:
   void place(std::span<const int32_t> vertices);
   void join_neighbour(int32_t v);
@@ -47,7 +45,6 @@ class EvenPlaces {
   Walls nearest_walls(int32_t v) const;
   std::optional<Touch> smooth_ball_at(int32_t v, const Vec3& start, const Walls& walls) const;
   bool is_open_rim(int32_t v) const;
-  bool is_rim(int32_t v) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   SmoothRim before_third_wall(int32_t v) const;

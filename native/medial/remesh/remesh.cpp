@@ -246,9 +246,7 @@ class Remesher {
 // Returns whether the facets of one sheet at a vertex look different ways.
 bool is_crumpled(const EvenMesh& even, int32_t v) {
   const SheetComplex& mesh = even.mesh;
-  const Stratum stratum = mesh.stratum(v);
-  if (stratum == Stratum::node) return false;
-  if (stratum == Stratum::curve && mesh.uses(v, mesh.along_curve(v)[0]) != 1) return false;
+  if (mesh.stratum(v) != Stratum::sheet && !mesh.is_rim(v)) return false;
   const Vec3 mean = normal_at(even, v);
   bool found = false;
   mesh.for_triangles(

@@ -70,6 +70,9 @@ class SheetComplex {
   std::vector<int32_t> curve_neighbours(int32_t v) const;
   // Returns the two neighbours of a vertex on a curve along it.
   Edge along_curve(int32_t v) const;
+  bool is_rim(int32_t v) const {
+    return stratum_[v] == Stratum::curve && uses(v, along_curve(v)[0]) == 1;
+  }
   // Returns the edges of the triangles, lower vertex first, in lexicographic order.
   std::vector<Edge> edges() const;
 

@@ -92,8 +92,7 @@ double turn_at(const EvenMesh& even, const Edge& edge, int32_t one, int32_t othe
 
 // Returns whether a vertex is inside a sheet or on its rim.
 bool has_one_sheet(const SheetComplex& mesh, int32_t v) {
-  if (!mesh.has_triangles(v) || mesh.stratum(v) == Stratum::node) return false;
-  return mesh.stratum(v) == Stratum::sheet || mesh.uses(v, mesh.along_curve(v)[0]) == 1;
+  return mesh.has_triangles(v) && (mesh.stratum(v) == Stratum::sheet || mesh.is_rim(v));
 }
 
 // Returns the turns of all vertices of one sheet, still without a turn.
