@@ -339,7 +339,8 @@ TEST(Crisp, PlacesOfSmoothSheetsAreSearchedOnce) {
       hierarchy.even({.spacings = 1, .round_limbs = true, .crisp = true}).extract(kCrisp);
   const auto touching = std::count(level.place.begin(), level.place.end(), Placing::touching);
   EXPECT_GT(touching, 150);
-  EXPECT_LE(faces.searches() - before, touching + touching / 10);
+  // Rims beyond their end are searched on the way, too: 1.15 searches for each place.
+  EXPECT_LE(faces.searches() - before, touching + touching / 5);
 }
 
 TEST(Crisp, TheCurveOfAConeEndsInItsTip) {
