@@ -11,16 +11,16 @@ import numpy as np
 from ..core.arrays import Flags, Floats
 from ..core.errors import InvalidInputError
 from ..core.solidify.solidify import Solidified
+from .mesh import stored
 from .mesh.attributes import Attribute
 from .mesh.evaluated_rows import keeps_rows
 from .mesh.write_mesh import new_mesh
 from .objects.output_object import Product, place, remember
 from .thickness.thicken_modifier import selected_triangles
 
-WALL, LEAST = "ma_solid_wall", "ma_solid_least"
 _TABLE = (Attribute("ma_wall", "walls", "POINT", "FLOAT", np.float32),)
 
-SOLID = Product(" Solid", (WALL,))
+SOLID = Product(" Solid", (stored.SOLID_WALL,))
 is_solid, solid_of, check_solid_writable = SOLID.has, SOLID.of, SOLID.check_writable
 
 
@@ -59,5 +59,5 @@ def write_solid(source: bpy.types.Object, found: Solidified, frame: Floats) -> b
     thing, _ = SOLID.write_mesh(source, partial(new_mesh, found, table=_TABLE))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
-    thing[WALL], thing[LEAST] = found.wall, found.least
+    thing[stored.SOLID_WALL], thing[stored.SOLID_LEAST] = found.wall, found.least
     return thing

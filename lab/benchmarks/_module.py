@@ -4,9 +4,14 @@
 import argparse
 import importlib.util
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+
+import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))
@@ -37,6 +42,22 @@ def _register_package():
     )
     sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(package)
+
+
+def in_blender(script: str, names: dict[str, str], **given: object) -> dict[str, tuple]:
+    """The vertices and triangles that a script of this folder makes of arrays inside Blender, by the ways' names."""
+    blender = shutil.which("blender")
+    if blender is None:
+        print("Blender's modifiers are left out: Blender is not installed")
+        return {}
+    with tempfile.TemporaryDirectory() as folder:
+        question, answer = Path(folder, "given.npz"), Path(folder, "answer.npz")
+        np.savez(question, **given)
+        command = [blender, "--background", "--factory-startup", "--python-exit-code", "1"]
+        command += ["--python", str(Path(__file__).with_name(script)), "--"]
+        subprocess.run([*command, question, answer], check=True, stdout=subprocess.DEVNULL)
+        found = np.load(answer)
+        return {names[n]: (found[f"{n}_points"], found[f"{n}_triangles"]) for n in names}
 
 
 def markdown(header: list[str], rows: list[list[str]]) -> str:

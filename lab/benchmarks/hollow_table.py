@@ -11,11 +11,6 @@ subtracts a scaled copy, or the inside of that Solidify modifier. They are left 
 MeshLib where the package meshlib is not.
 """
 
-import shutil
-import subprocess
-import tempfile
-from pathlib import Path
-
 import _module
 import numpy as np
 from numpy.typing import NDArray
@@ -58,19 +53,8 @@ def ours(shape: Shape, wall: float) -> Mesh:
 
 
 def by_blender(shape: Shape, wall: float) -> dict[str, Mesh]:
-    blender = shutil.which("blender")
-    if blender is None:
-        print("Blender's modifiers are left out: Blender is not installed")
-        return {}
-    script = Path(__file__).with_name("offsets_in_blender.py")
-    with tempfile.TemporaryDirectory() as folder:
-        solid, answer = Path(folder, "solid.npz"), Path(folder, "answer.npz")
-        np.savez(solid, points=shape.points, triangles=shape.triangles, wall=wall)
-        command = [blender, "--background", "--factory-startup", "--python-exit-code", "1"]
-        command += ["--python", str(script), "--", str(solid), str(answer)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        found = np.load(answer)
-        return {NAMES[n]: (found[f"{n}_points"], found[f"{n}_triangles"]) for n in NAMES}
+    given = {"points": shape.points, "triangles": shape.triangles, "wall": wall}
+    return _module.in_blender("offsets_in_blender.py", NAMES, **given)
 
 
 def by_meshlib(shape: Shape, wall: float) -> dict[str, Mesh]:

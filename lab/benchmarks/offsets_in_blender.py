@@ -95,4 +95,5 @@ def subtracted(points, triangles, inner, faces):
     return places, pieces[of_tool[polygon]][:, ::-1]
 
 
-main()
+if __name__ == "__main__":
+    main()

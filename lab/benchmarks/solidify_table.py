@@ -11,11 +11,7 @@ folder MEDIAL_AXIS_TEST_DATA. Blender's modifier is left out where Blender is no
 package meshlib is not.
 """
 
-import shutil
-import subprocess
-import tempfile
 import time
-from pathlib import Path
 
 import _module
 import numpy as np
@@ -147,19 +143,8 @@ def ours(shape: Shape, wall: float) -> Mesh:
 
 
 def by_blender(shape: Shape, wall: float) -> dict[str, Mesh]:
-    blender = shutil.which("blender")
-    if blender is None:
-        print("Blender's modifier is left out: Blender is not installed")
-        return {}
-    script = Path(__file__).with_name("solids_in_blender.py")
-    with tempfile.TemporaryDirectory() as folder:
-        sheet, answer = Path(folder, "sheet.npz"), Path(folder, "answer.npz")
-        np.savez(sheet, points=shape.points, triangles=shape.triangles, wall=wall)
-        command = [blender, "--background", "--factory-startup", "--python-exit-code", "1"]
-        command += ["--python", str(script), "--", str(sheet), str(answer)]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        found = np.load(answer)
-        return {NAMES[n]: (found[f"{n}_points"], found[f"{n}_triangles"]) for n in NAMES}
+    given = {"points": shape.points, "triangles": shape.triangles, "wall": wall}
+    return _module.in_blender("solids_in_blender.py", NAMES, **given)
 
 
 def by_meshlib(shape: Shape, wall: float) -> dict[str, Mesh]:

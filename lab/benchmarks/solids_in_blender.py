@@ -8,9 +8,12 @@ The sheet has `points`, `triangles` and `wall`. The answer has vertices and tria
 """
 
 import sys
+from pathlib import Path
 
-import bpy
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+from offsets_in_blender import made, shown
 
 
 def main() -> None:
@@ -22,10 +25,7 @@ def main() -> None:
 
 
 def solidified(given, mode: str) -> tuple[np.ndarray, np.ndarray]:
-    mesh = bpy.data.meshes.new("Sheet")
-    mesh.from_pydata(given["points"].tolist(), [], given["triangles"].tolist())
-    thing = bpy.data.objects.new("Sheet", mesh)
-    bpy.context.collection.objects.link(thing)
+    thing = made(given["points"], given["triangles"])
     modifier = thing.modifiers.new("Solidify", "SOLIDIFY")
     modifier.thickness, modifier.offset = float(given["wall"]), 0.0
     if mode == "simple":
@@ -33,12 +33,7 @@ def solidified(given, mode: str) -> tuple[np.ndarray, np.ndarray]:
     else:
         modifier.solidify_mode = "NON_MANIFOLD"
         modifier.nonmanifold_thickness_mode = "CONSTRAINTS"
-    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    made = evaluated.to_mesh()
-    made.calc_loop_triangles()
-    points = np.array([vertex.co[:] for vertex in made.vertices], float).reshape(-1, 3)
-    triangles = np.array([t.vertices[:] for t in made.loop_triangles], np.int32).reshape(-1, 3)
-    return points, triangles
+    return shown(thing)
 
 
 main()

@@ -52,7 +52,7 @@ def suzanne():
 def render(report, path):
     report.data.polygons.foreach_set("use_smooth", [True] * len(report.data.polygons))
     blender_scene.PIXELS = PIXELS
-    centre, radius = blender_scene.bounding_ball(report)
+    centre, radius = blender_scene.bounding_ball(blender_scene.world_points(report))
     blender_scene.look_at(centre, radius, blender_scene.world_points(report))
     blender_scene.light()
     blender_scene.use_cycles()

@@ -89,18 +89,9 @@ def paint(thing, colour):
 
 def render(things, picture):
     bpy.context.view_layer.update()
-    points = [point for thing in things for point in blender_scene.world_points(thing)]
-    mesh = bpy.data.meshes.new("Frame")
-    mesh.from_pydata([tuple(map(float, point)) for point in points], [], [])
-    frame = bpy.data.objects.new("Frame", mesh)
-    bpy.context.collection.objects.link(frame)
-    centre, radius = blender_scene.bounding_ball(frame)
     blender_scene.PIXELS, blender_scene.VIEW = (1000, 440), Vector((0.12, -1.0, 0.2))
-    blender_scene.look_at(centre, radius, blender_scene.world_points(frame))
-    blender_scene.light()
-    blender_scene.use_cycles()
-    bpy.context.scene.render.filepath = str(Path(picture).resolve())
-    bpy.ops.render.render(write_still=True)
+    blender_scene.show_whole(*things)
+    blender_scene.render(picture)
 
 
 main()

@@ -84,18 +84,9 @@ def paint(thing):
 
 def render(before, after, picture):
     bpy.context.view_layer.update()
-    points = [*blender_scene.world_points(before), *blender_scene.world_points(after)]
-    mesh = bpy.data.meshes.new("Frame")
-    mesh.from_pydata([tuple(map(float, point)) for point in points], [], [])
-    frame = bpy.data.objects.new("Frame", mesh)
-    bpy.context.collection.objects.link(frame)
-    center, radius = blender_scene.bounding_ball(frame)
     blender_scene.PIXELS = (900, 420)
-    blender_scene.look_at(center, radius, blender_scene.world_points(frame))
-    blender_scene.light()
-    blender_scene.use_cycles()
-    bpy.context.scene.render.filepath = str(Path(picture).resolve())
-    bpy.ops.render.render(write_still=True)
+    blender_scene.show_whole(before, after)
+    blender_scene.render(picture)
 
 
 main()

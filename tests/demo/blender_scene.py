@@ -2,6 +2,7 @@
 """The picture of a medial axis: camera, light, and a surface like thin glass round the coloured axis."""
 
 import math
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -23,9 +24,10 @@ def arrange(source, result, shine=True):
     show_whole(source)
 
 
-def show_whole(thing):
-    """Set up camera, light and renderer for a picture with the whole of an object."""
-    look_at(*bounding_ball(thing), world_points(thing))
+def show_whole(*things):
+    """Set up camera, light and renderer for a picture with the whole of some objects."""
+    points = np.concatenate([world_points(thing) for thing in things])
+    look_at(*bounding_ball(points), points)
     light()
     use_cycles()
 
@@ -39,8 +41,7 @@ def world_points(thing):
     return points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def bounding_ball(thing):
-    points = world_points(thing)
+def bounding_ball(points):
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     return Vector(center), float(np.linalg.norm(points - center, axis=1).max())
 
@@ -57,6 +58,11 @@ def look_at(center, radius, points):
     graph = bpy.context.evaluated_depsgraph_get()
     camera.location, _ = camera.camera_fit_coords(graph, points.ravel().tolist())
     camera.location += VIEW.normalized() * 0.12 * (camera.location - center).length  # a margin
+
+
+def render(picture):
+    bpy.context.scene.render.filepath = str(Path(picture).resolve())
+    bpy.ops.render.render(write_still=True)
 
 
 def light():

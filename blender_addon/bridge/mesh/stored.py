@@ -117,6 +117,7 @@ REBUILT = "ma_rebuilt"  # marks the object
 REBUILT_MEAN, REBUILT_LARGEST = "ma_rebuilt_mean", "ma_rebuilt_largest"
 REBUILT_VOLUME = "ma_rebuilt_volume"
 HOLLOW_WALL, HOLLOW_LEAST = "ma_hollow_wall", "ma_hollow_least"
+SOLID_WALL, SOLID_LEAST = "ma_solid_wall", "ma_solid_least"
 MID_SHEETS, MID_SHARE = "ma_mid_sheets", "ma_mid_share"
 THICK_FACES = "ma_thick_faces"
 BALLS_MODE, BALLS_COVERED = "ma_balls_mode", "ma_balls_covered"
