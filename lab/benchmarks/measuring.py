@@ -51,9 +51,9 @@ class Input:
 def in_child(command: list, **options) -> tuple[str, float]:
     """The output of a command, and how many cores other processes kept busy meanwhile."""
     before = time.perf_counter(), _busy(), _children()
-    done = subprocess.run(
-        list(map(str, command)), check=True, stdout=subprocess.PIPE, text=True, **options
-    )
+    done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, text=True, **options)
+    if done.returncode:
+        raise SystemExit(f"{command[0]} ended with {done.returncode}:\n{done.stdout[-3000:]}")
     wall, busy, own = (b - a for a, b in zip(before, (time.perf_counter(), _busy(), _children())))
     return done.stdout, max(0.0, busy - own) / wall
 
