@@ -10,7 +10,7 @@ namespace {
 constexpr int64_t kFew = 64;         // vertices that a thread takes at a time
 constexpr double kSamePlace = 1e-3;  // target lengths between places that are one; chosen: unseen
 constexpr double kMostSlide = 0.7;   // of the target length that a rim moves at once; chosen: axis
-constexpr double kAtEnd = 0.1;  // target lengths: a rim that moves less has ended; chosen: unseen
+constexpr double kAtEnd = 0.05;  // target lengths: a rim that moves less has ended; chosen: unseen
 constexpr double kRimOpenness = 0.004;  // of a rim, whose feet are 7 degrees apart; chosen: axis
 constexpr double kPlate = 0.9;  // the openness of a plate with nearly parallel sides; chosen: axis
 constexpr double kRimSlope = 0.2;  // of the steps along a rim; chosen: axis

@@ -19,7 +19,7 @@ constexpr double kEdge = 2.8;       // the edge wanted: 1.7 distances of samples
 constexpr double kLeastEdge = 1.3;  // in narrow sheets: nothing to gain below; chosen: axis
 // where a sheet is curved: half the distance of samples, below which they know no curvature
 constexpr double kLeastOfCurved = 0.8;  // derived: 0.5 / 0.6
-constexpr double kMerged = 0.25;  // that Voronoi vertices of one place are apart; chosen: axis
+constexpr double kMerged = 0.3;  // that Voronoi vertices of one place are apart; chosen: axis
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, for rough scans; chosen: axis
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet; chosen: axis
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most; chosen: axis

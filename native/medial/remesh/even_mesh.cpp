@@ -53,6 +53,8 @@ class MovedStar {
     });
   }
 
+  bool keeps_sides() const { return keeps_sides_; }
+
   // Returns whether all triangles would keep their side, and no sheet would fold at an edge of them
   // at which it does not yet.
   bool is_sound() const {
@@ -123,6 +125,10 @@ class MovedStar {
 
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place) {
   return MovedStar(even, v, place).is_sound();
+}
+
+bool turns_none(const EvenMesh& even, int32_t from, int32_t to) {
+  return MovedStar(even, from, even.position[to], to).keeps_sides();
 }
 
 bool can_collapse(const EvenMesh& even, int32_t from, int32_t to) {

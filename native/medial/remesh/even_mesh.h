@@ -31,6 +31,9 @@ struct EvenMesh {
 // Returns whether all triangles at a vertex would keep their side if it moved to a place, and no
 // sheet would turn by more than 120 degrees at an edge of them at which it does not yet.
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
+// Returns whether all triangles at a vertex that has an edge to another one would keep their side
+// if it were collapsed into that.
+bool turns_none(const EvenMesh& even, int32_t from, int32_t to);
 // Returns whether a vertex can be collapsed into another one: the complex allows it, triangles keep
 // their side, and no sheet folds.
 bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);

@@ -34,6 +34,7 @@ class Remesher {
       int64_t done = 0, vertices = 0;
       for (int32_t v = 0; v < mesh_.vertices(); ++v) vertices += mesh_.has_triangles(v);
       for (const auto& [shortness, a, b] : edges_beyond(1)) {
+        if (!mesh_.has_triangles(a) || !mesh_.has_triangles(b)) continue;
         done += collapse(a, b) || collapse(b, a);
       }
       throw_if_cancelled(run_.progress);
@@ -116,7 +117,7 @@ class Remesher {
   }
 
   bool collapse(int32_t from, int32_t to) {
-    if (mesh_.stratum(from) > mesh_.stratum(to) || !mesh_.has_triangles(from)) return false;
+    if (mesh_.stratum(from) > mesh_.stratum(to)) return false;
     if (!(edge_length(from, to) < kShort * target(from, to))) return false;
     if (!keeps_line(from, to) || !stays_short(from, to) || !can_collapse(e_, from, to))
       return false;
@@ -260,8 +261,10 @@ void merge_close(EvenMesh& even, std::span<const double> within) {
   SheetComplex& mesh = even.mesh;
   std::vector<int32_t> at;
   const auto merge = [&](int32_t from, int32_t to) {
-    if (!mesh.has_triangles(from) || even.held[from] || !is_crumpled(even, from)) return false;
+    if (!mesh.has_triangles(from) || even.held[from]) return false;
     if (mesh.stratum(from) > mesh.stratum(to) || !mesh.can_collapse(from, to)) return false;
+    const bool keeps = mesh.stratum(from) == Stratum::sheet && turns_none(even, from, to);
+    if (!keeps && !is_crumpled(even, from)) return false;
     at.clear();
     mesh.for_triangles(from, [&](int32_t t) { at.push_back(t); });
     mesh.collapse(from, to);

@@ -23,8 +23,10 @@ struct RemeshOptions {
   std::function<Vec3(const Vec3&)> onto_line;
 };
 
-// Merges vertices of crumpled sheets that are nearer to each other than `within`, (v): they are one
-// place, as far as the samples tell, so what this turns over is no fold. Held vertices stay.
+// Merges vertices that are nearer to each other than `within`, (v), nearest first: they are one
+// place, as far as the samples tell. Inside sheets triangles keep their sides. Where the facets of
+// a sheet look different ways already, at its rim too, what turns over is noise and no fold. Held
+// vertices stay.
 void merge_close(EvenMesh& even, std::span<const double> within);
 
 // Splits, collapses, flips and smooths once.
