@@ -26,7 +26,8 @@ from measuring import Input, Memory, median
 
 MODULE = os.environ["MEDIAL_AXIS_MODULE"]
 CHANGES = 8  # of Trim Rims; the first is not counted
-RHO = (9.0, 20.0, 10.0, 30.0)  # far apart, as near ones often select the same; the first is not counted
+# Far apart, as near ones often select the same; the first is not counted.
+RHO = (9.0, 20.0, 10.0, 30.0)
 
 
 def main() -> None:

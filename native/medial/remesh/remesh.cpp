@@ -10,7 +10,6 @@ namespace medial {
 namespace {
 
 constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
-constexpr double kCrumpled = 0.5;       // the cosine between facets that are not flat; chosen: axis
 constexpr double kFewCollapses = 0.01;  // of the vertices end the passes; chosen: axis
 constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
 constexpr double kStep = 0.5;  // of the way to there, which levels a zigzag at once; chosen: axis
@@ -244,27 +243,14 @@ class Remesher {
   std::vector<Vec3> wanted_;
 };
 
-// Returns whether the facets of one sheet at a vertex look different ways.
-bool is_crumpled(const EvenMesh& even, int32_t v) {
-  const SheetComplex& mesh = even.mesh;
-  if (mesh.stratum(v) != Stratum::sheet && !mesh.is_rim(v)) return false;
-  const Vec3 mean = normal_at(even, v);
-  bool found = false;
-  mesh.for_triangles(
-      v, [&](int32_t t) { found = found || std::abs(dot(even.normal[t], mean)) < kCrumpled; });
-  return found;
-}
-
 }  // namespace
 
 void merge_close(EvenMesh& even, std::span<const double> within) {
   SheetComplex& mesh = even.mesh;
   std::vector<int32_t> at;
   const auto merge = [&](int32_t from, int32_t to) {
-    if (!mesh.has_triangles(from) || even.held[from]) return false;
-    if (mesh.stratum(from) > mesh.stratum(to) || !mesh.can_collapse(from, to)) return false;
-    const bool keeps = mesh.stratum(from) == Stratum::sheet && turns_none(even, from, to);
-    if (!keeps && !is_crumpled(even, from)) return false;
+    if (!mesh.has_triangles(from) || mesh.stratum(from) != Stratum::sheet) return false;
+    if (!mesh.can_collapse(from, to) || !turns_none(even, from, to)) return false;
     at.clear();
     mesh.for_triangles(from, [&](int32_t t) { at.push_back(t); });
     mesh.collapse(from, to);

@@ -23,10 +23,8 @@ struct RemeshOptions {
   std::function<Vec3(const Vec3&)> onto_line;
 };
 
-// Merges vertices that are nearer to each other than `within`, (v), nearest first: they are one
-// place, as far as the samples tell. Inside sheets triangles keep their sides. Where the facets of
-// a sheet look different ways already, at its rim too, what turns over is noise and no fold. Held
-// vertices stay.
+// Merges vertices inside sheets with vertices that are nearer than `within`, (v), nearest first:
+// they are one place, as far as the samples tell. Triangles keep their sides.
 void merge_close(EvenMesh& even, std::span<const double> within);
 
 // Splits, collapses, flips and smooths once.
