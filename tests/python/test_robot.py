@@ -113,8 +113,13 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
         )
         assert gap.max() <= 1e-9 and told["farthest"] > 0.0 and told["volume"] > 0.0
     assert report["links_left"] == []
-    if "--capsules" in words:  # the least capsule of the box that was found has this volume
-        assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)
+    if "--capsules" in words:
+        assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)  # of the least one
+        for told in report["links"][:3]:
+            (cylinder,) = links[told["name"]].iter("cylinder")
+            length, radius = float(cylinder.get("length")), float(cylinder.get("radius"))
+            volume = np.pi * radius**2 * (length + 4 / 3 * radius)
+            assert told["volume"] == pytest.approx(volume, rel=1e-9)
 
 
 def test_balls_inside_stay_in_their_link(arm, tmp_path):
@@ -159,7 +164,7 @@ def test_a_tolerance_takes_as_few_as_it_needs(arm, tmp_path, capsys):
     said = capsys.readouterr()
     assert "the link 'hand' keeps within" in said.err and "allow more of them" in said.err
     assert "4 links\n  base: 2 balls, volume" in said.out
-    assert "tip: spheres, as it was" in said.out
+    assert "tip: spheres or capsules, as it was" in said.out
 
 
 def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
@@ -176,7 +181,8 @@ def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
     "text, said",
     [
         ("<robot><link/></robot>", "Expected links with <collision>, found none"),
-        ("<mujoco/>", "found <mujoco>"),
+        ("<sdf/>", "robot or mujoco, found <sdf>"),
+        ("<mujoco/>", "Expected bodies with geoms that collide, found none"),
         ("<robot", "Expected XML, found"),
         ("<robot xmlns:xacro='x'><xacro:arm/></robot>", "expand them with xacro"),
         ("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>", "Expected no entities"),

@@ -34,7 +34,7 @@ class LinkCover:
         balls = self.balls
         return {
             "name": self.link.name,
-            "collisions": self.link.pieces,
+            "collisions": len(self.link.spans),
             "count": 0 if balls is None else balls.count,
             "shapes": "" if balls is None else "capsules" if len(balls.edges) else "balls",
             "volume": None if balls is None else volume_of(balls),
@@ -78,7 +78,7 @@ def _cover(
     progress: Progress,
     limit: MemoryLimit,
 ) -> LinkCover:
-    if link.problem or link.balls_only:
+    if link.problem or set(link.kinds) <= {"sphere", wanted.balls.shapes.name.lower()[:-1]}:
         return LinkCover(link, None, link.problem)
     start = time.perf_counter()
     shape, _ = in_own_frame(Shape(link.points, link.triangles))
