@@ -17,6 +17,7 @@ from medial_axis.core.errors import (
 )
 from support import meshes, swept
 from support.distance import points_on_triangles
+from support.robot_shapes import shapes_of
 from support.shape_meshes import of_capsule
 from support.shapes import SHAPES
 
@@ -492,32 +493,16 @@ def few():
     return covered(TORUS, count=5, sampling="vertices").balls
 
 
-def links_of(path):
-    """Centres and radii in a file of a robot, by Python's parser."""
-    root = ElementTree.parse(path).getroot()
-    if root.tag == "robot":
-        assert root.get("name") == root.find("link").get("name")
-        spheres = root.findall("link/collision")
-        places = [sphere.find("origin").get("xyz") for sphere in spheres]
-        sizes = [sphere.find("geometry/sphere").get("radius") for sphere in spheres]
-    else:
-        assert root.tag == "mujoco" and root.get("model") == root.find("worldbody/body").get("name")
-        spheres = root.findall("worldbody/body/geom")
-        assert {sphere.get("type") for sphere in spheres} == {"sphere"}
-        places = [sphere.get("pos") for sphere in spheres]
-        sizes = [sphere.get("size") for sphere in spheres]
-    centres = np.array([[float(word) for word in place.split()] for place in places])
-    return root, centres, np.array([float(size) for size in sizes])
-
-
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf", ".xml"])
 @pytest.mark.parametrize("stem", ["arm 1", 'a&b<"c">\'', "Grün\x01", "\udcff手"])
 def test_files_of_robots_hold_the_balls(tmp_path, suffix, stem):
-    path = medial_axis.write_balls(few(), tmp_path / (stem + suffix))
-    root, centres, radii = links_of(path)
-    assert np.array_equal(centres, few().centres) and np.array_equal(radii, few().radii)
+    root = ElementTree.parse(medial_axis.write_balls(few(), tmp_path / (stem + suffix))).getroot()
+    link = root.find("link" if suffix == ".urdf" else "worldbody/body")
+    kinds, ends, radii = zip(*shapes_of(link), strict=True)
+    assert set(kinds) == {"sphere"} and np.array_equal(np.array(ends)[:, 0], few().centres)
+    assert np.array_equal(radii, few().radii)
     name = root.get("name" if suffix == ".urdf" else "model")
-    assert name == stem.replace("\x01", "_").replace("\udcff", "_")
+    assert name == link.get("name") == stem.replace("\x01", "_").replace("\udcff", "_")
 
 
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
@@ -526,32 +511,6 @@ def test_files_of_robots_refuse_balls_without_size(tmp_path, suffix):
     with pytest.raises(ExportError, match="Expected radii above 0 for a file of a robot, found 0"):
         medial_axis.write_balls(none, tmp_path / ("arm" + suffix))
     assert not list(tmp_path.iterdir())
-
-
-def test_mujoco_reads_them(tmp_path):
-    mujoco = pytest.importorskip("mujoco")
-    path = medial_axis.write_balls(few(), tmp_path / "arm.xml")
-    model = mujoco.MjModel.from_xml_path(str(path))
-    assert (model.geom_type == mujoco.mjtGeom.mjGEOM_SPHERE).all()
-    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
-        model.geom_size[:, 0], few().radii
-    )
-    urdf = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
-    model = mujoco.MjModel.from_xml_path(str(urdf))
-    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
-        model.geom_size[:, 0], few().radii
-    )
-
-
-@pytest.mark.parametrize("parser", ["yourdfpy", "urchin"])
-def test_parsers_of_urdf_read_them(tmp_path, parser):
-    module = pytest.importorskip(parser)
-    path = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
-    robot = module.URDF.load(str(path))
-    (link,) = robot.links if parser == "urchin" else robot.robot.links
-    found = link.collisions
-    assert np.allclose([item.origin[:3, 3] for item in found], few().centres)
-    assert np.allclose([item.geometry.sphere.radius for item in found], few().radii)
 
 
 def test_placed_balls_scale(tmp_path):

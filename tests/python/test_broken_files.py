@@ -107,48 +107,6 @@ def test_fuzzed_files(tmp_path, seed):
     assert 0 < refused < 50
 
 
-@pytest.mark.parametrize(
-    "header, words",
-    [
-        (
-            "element vertex 1\nproperty list uchar int a\nproperty float x\nproperty float y\n"
-            "property float z\n",
-            "lists",
-        ),
-        (
-            "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-            "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n",
-            "one element",
-        ),
-    ],
-    ids=["a list among the coordinates", "a second element of points"],
-)
-def test_ply_says_what_is_wrong(tmp_path, header, words):
-    text = f"ply\nformat ascii 1.0\n{header}end_header\n0 0 0 0\n0 0 0 0\n"
-    (tmp_path / "a.ply").write_text(text)
-    with pytest.raises(ReadError, match=words):
-        import_points(tmp_path / "a.ply")
-
-
-@pytest.mark.parametrize("rows", [-1, 10**30])
-def test_ply_with_a_count_that_is_none(tmp_path, rows):
-    """An element without properties takes no bytes, so the length of the file says nothing about its rows."""
-    header = f"element other {rows}\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-    (tmp_path / "a.ply").write_bytes(
-        f"ply\nformat binary_little_endian 1.0\n{header}end_header\n".encode() + bytes(12)
-    )
-    with pytest.raises(ReadError, match="Expected a header of PLY in line 3"):
-        import_points(tmp_path / "a.ply")
-
-
-def test_ply_with_a_negative_count(tmp_path):
-    data = ply("binary_little_endian", MIXED).replace(b"list uchar", b"list char")
-    start = data.index(b"end_header\n") + len(b"end_header\n") + 24 * len(POINTS)
-    (tmp_path / "a.ply").write_bytes(data[:start] + b"\xff" + data[start + 1 :])
-    with pytest.raises(ReadError, match="Expected a number of corners"):
-        import_points(tmp_path / "a.ply")
-
-
 def test_stl_that_begins_like_text_and_is_binary(tmp_path):
     (tmp_path / "a.stl").write_bytes(stl_binary(b"solid by hand") + b"\0\0")
     found = import_points(tmp_path / "a.stl")
