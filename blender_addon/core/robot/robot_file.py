@@ -7,19 +7,22 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints
 from ..cover.ball_cover import Balls
+from ..cover.robot_links import write_collisions, write_geoms
+from ..cover.write_balls import check_robot
 from ..errors import MedialAxisError, ReadError
 from ..files.text import open_file
 from ..machine.memory_limit import MemoryLimit
 from .mjcf import Mjcf
-from .new_shapes import lines_of
 from .urdf import Urdf
 from .xml_spans import Element, elements_of, replaced
 
@@ -70,7 +73,7 @@ class RobotFile:
     def with_shapes(self, shapes: Mapping[int, Balls]) -> bytes:
         """Return the file with balls and capsules as the collision geometry of some links, named by their rows."""
         links = [(self.links[row], balls) for row, balls in shapes.items()]
-        edits = [(link.spans, lines_of(self.tag, dict(link.kept), balls)) for link, balls in links]
+        edits = [(link.spans, _lines_of(self.tag, dict(link.kept), balls)) for link, balls in links]
         return replaced(self.data.tobytes(), edits)
 
 
@@ -117,4 +120,26 @@ def _geometry_of(
         tuple(sorted(kinds)),
         tuple(kept.items()),
         problem,
+    )
+
+
+def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:
+    """Return an element for each shape with attributes that it has not; the first has the name, all share the mass."""
+    check_robot(balls)
+    stream = BytesIO()
+    (write_geoms if tag == "geom" else write_collisions)(balls, stream)
+    lines = [line.strip() for line in stream.getvalue().decode("ascii").splitlines()]
+    if "mass" in kept:
+        kept["mass"] = repr(float(kept["mass"]) / len(lines))
+    return [
+        line.replace(f"<{tag}", f"<{tag}{_words(kept, line, first=row == 0)}", 1)
+        for row, line in enumerate(lines)
+    ]
+
+
+def _words(kept: dict[str, str], line: str, first: bool) -> str:
+    return "".join(
+        f" {name}={quoteattr(text)}"
+        for name, text in kept.items()
+        if f" {name}=" not in line and (first or name != "name")
     )
