@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from medial_axis.core.errors import MedialAxisError, ReadError
+from medial_axis.core.errors import ReadError
 from medial_axis.core.files import text as import_text
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.rounding import rounding_warning
@@ -427,62 +427,3 @@ def test_float32_is_too_little(step, offset, lie):
     assert f"while neighbours lie {lie} apart; subtract a common offset" in text
     moved = float(text.split("up to ")[1].split()[0])
     assert 0.05 * step < moved <= 2 * np.spacing(np.float32(offset))
-
-
-# --- fuzz
-
-FUZZED = {
-    "a.xyz": "3\ntitle\n" + rows(THREE),
-    "b.xyz": rows(THREE, NORMALS, mark=","),
-    "c.xyzn": rows(THREE, NORMALS, mark="; "),
-    "d.off": off(OUTWARD, BYTES, header="# f\nCNOFF\n8 6 12\n"),
-    "e.off": off(),
-}
-
-
-def damaged(data, rng):
-    """Cut off, with some bytes changed, doubled, exchanged or lost."""
-    data = bytearray(data)
-    for _ in range(int(rng.integers(0, 4))):
-        start, stop = sorted(rng.integers(0, len(data) + 1, 2).tolist())
-        stop = min(stop, start + 20)
-        kind = rng.integers(0, 5)
-        if kind == 0:
-            data[start:stop] = bytes(rng.integers(0, 256, stop - start, dtype=np.uint8))
-        elif kind == 1:
-            data[start:stop] = bytes(
-                rng.choice(list(b"0123456789 .-e\n,;#/"), stop - start).tolist()
-            )
-        elif kind == 2:
-            del data[start:stop]
-        elif kind == 3:
-            data[start:start] = data[start:stop]
-        else:
-            del data[start:]
-    return bytes(data)
-
-
-@pytest.mark.turn
-@pytest.mark.parametrize("name", FUZZED)
-def test_damaged_files_are_read_or_refused(name, file):
-    """Every result satisfies the promises of ImportedPoints; the only exceptions are our errors."""
-    rng = np.random.default_rng(5)
-    content, outcomes = FUZZED[name].encode(), set()
-    for _ in range(1500):
-        path = file(name, damaged(content, rng))
-        try:
-            found = import_points(path)
-        except MedialAxisError as error:
-            assert "\n" not in str(error) and str(error).startswith("Expected ")
-            outcomes.add("refused")
-            continue
-        outcomes.add("read")
-        assert found.vertices.ndim == 2 and found.vertices.shape[1] == 3 and len(found.vertices)
-        assert np.isfinite(found.vertices).all()
-        assert found.normals is None or (
-            found.normals.shape == found.vertices.shape and np.isfinite(found.normals).all()
-        )
-        assert found.face_offsets[0] == 0 and found.face_offsets[-1] == len(found.face_vertices)
-        assert (np.diff(found.face_offsets) >= 3).all()
-        assert ((found.face_vertices >= 0) & (found.face_vertices < len(found.vertices))).all()
-    assert outcomes == {"read", "refused"}
