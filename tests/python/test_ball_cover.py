@@ -432,14 +432,18 @@ def test_refined_balls_around_reach_out_no_farther_than_greedy_ones(count):
 
 
 @pytest.mark.slow
-def test_the_hand(data_file):
-    shape = medial_axis.read(data_file("hand_closed.obj"))
-    balls = covered((shape.points, shape.triangles), count=64).balls
-    assert balls.covered > 0.8 and len(balls.radii) == 64 and balls.outside == 0.0
-    assert balls.farthest < 0.03 * np.linalg.norm(np.ptp(shape.points, axis=0))
-    around = covered((shape.points, shape.triangles), count=64, mode="around").balls
-    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
-    assert around.farthest == 0.0 and around.outside < 0.04 * diagonal
+@pytest.mark.parametrize(
+    "shapes, count, left, beyond",
+    [("balls", 64, 0.03, 0.04), ("capsules", 50, 0.06, 0.06), ("tapered", 50, 0.06, 0.06)],
+)
+def test_the_hand(data_file, shapes, count, left, beyond):
+    hand = medial_axis.read(data_file("hand_closed.obj"))
+    solid, diagonal = (hand.points, hand.triangles), np.linalg.norm(np.ptp(hand.points, axis=0))
+    balls = covered(solid, count=count, shapes=shapes).balls
+    assert balls.outside == 0.0 and balls.farthest < left * diagonal
+    assert shapes != "balls" or (balls.covered > 0.8 and len(balls.radii) == 64)
+    around = covered(solid, count=count, shapes=shapes, mode="around").balls
+    assert around.farthest == 0.0 and around.outside < beyond * diagonal
 
 
 @pytest.mark.parametrize(
@@ -458,9 +462,10 @@ def test_options_are_checked(options, words):
         covered(BALL, **options)
 
 
-def test_flat_points_are_refused():
+@pytest.mark.parametrize("shapes", ["balls", "capsules"])
+def test_flat_points_are_refused(shapes):
     with pytest.raises(DegenerateInputError):
-        medial_axis.cover_by_balls(np.random.default_rng(1).random((50, 3)) * (1, 1, 0))
+        covered((np.random.default_rng(1).random((50, 3)) * (1, 1, 0),), shapes=shapes)
 
 
 # --- files
@@ -506,10 +511,15 @@ def test_files_of_robots_hold_the_balls(tmp_path, suffix, stem):
 
 
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
-def test_files_of_robots_refuse_balls_without_size(tmp_path, suffix):
+def test_files_of_robots_refuse_what_they_cannot_hold(tmp_path, suffix):
     none = replace(few(), radii=np.where(np.arange(5) == 2, 0.0, few().radii))
-    with pytest.raises(ExportError, match="Expected radii above 0 for a file of a robot, found 0"):
-        medial_axis.write_balls(none, tmp_path / ("arm" + suffix))
+    tapered = covered(TORUS, count=9, sampling="vertices", shapes="tapered").balls
+    for balls, words in (
+        (none, "Expected radii above 0 for a file of a robot, found 0"),
+        (tapered, "found tapered capsules; set Shapes to Capsules"),
+    ):
+        with pytest.raises(ExportError, match=words):
+            medial_axis.write_balls(balls, tmp_path / ("arm" + suffix))
     assert not list(tmp_path.iterdir())
 
 

@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 import medial_axis
 import numpy as np
 import pytest
-from medial_axis.core.errors import DegenerateInputError, ExportError
 from medial_axis.core.portable_angle import angle_of
 from support import meshes, swept
 from support.distance import points_on_triangles
@@ -194,18 +193,6 @@ def test_a_box_has_capsules():
     assert not balls.is_tapered and balls.radii.min() > 0.1 * np.ptp(mesh[0], axis=0).min()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("shapes", ["capsules", "tapered"])
-def test_the_hand(data_file, shapes):
-    shape = medial_axis.read(data_file("hand_closed.obj"))
-    solid = shape.points, shape.triangles
-    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
-    inside = medial_axis.cover_by_balls(*solid, count=50, shapes=shapes).balls
-    assert inside.outside == 0.0 and inside.farthest < 0.06 * diagonal
-    around = medial_axis.cover_by_balls(*solid, count=50, shapes=shapes, mode="around").balls
-    assert around.farthest == 0.0 and around.outside < 0.06 * diagonal
-
-
 # --- files
 
 
@@ -234,13 +221,6 @@ def test_files_of_robots_hold_the_capsules(tmp_path, suffix):
     ends = np.array([shape[1] for shape in long])
     np.testing.assert_allclose(ends, balls.centres[balls.edges], rtol=0, atol=1e-12)
     assert np.array_equal([shape[2] for shape in long], balls.radii[balls.edges[:, 0]])
-
-
-@pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
-def test_robots_have_no_tapered_capsules(tmp_path, suffix):
-    with pytest.raises(ExportError, match="found tapered capsules; set Shapes to Capsules"):
-        medial_axis.write_balls(covered("tapered", count=9), tmp_path / ("a" + suffix))
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("shapes", ["capsules", "balls"])
@@ -284,10 +264,3 @@ def test_angles_are_those_of_the_c_library():
     wanted = [math.atan2(b, a) for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(angle_of(x, y), wanted, rtol=0, atol=1e-15)
     assert angle_of(np.zeros(1), np.zeros(1)) == 0.0
-
-
-def test_no_end_inside_is_refused():
-    with pytest.raises(DegenerateInputError):
-        medial_axis.cover_by_balls(
-            np.random.default_rng(1).random((50, 3)) * (1, 1, 0), shapes="capsules"
-        )

@@ -48,13 +48,10 @@ def frame_of(geom: Element, unit: float, order: str) -> tuple[Floats, Floats]:
 
 def matrix_of(quaternion: Floats, element: Element) -> Floats:
     """Return the turn that a quaternion of any length means."""
-    w, x, y, z = _unit(quaternion, element).tolist()
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.array(rows)
+    w, *axis = _unit(quaternion, element)
+    along = np.array(axis)
+    across = np.cross(along, np.identity(3)).T
+    return (2 * w * w - 1) * np.identity(3) + 2 * np.outer(along, along) + 2 * w * across
 
 
 def _turn_of(geom: Element, unit: float, order: str) -> Floats:
