@@ -32,7 +32,8 @@ ARM = """<mujoco model="Grün &amp; Söhne"><compiler meshdir="meshes" autolimit
       <body name="arm" childclass="main"><joint/>
         <geom type="cylinder" size="0.05" fromto="0 0 0 0.3 0 0.4" contype="2"/>
         <geom size="0.07" type="sphere" contype="2"/>
-        <body name="tip"><geom type="sphere" size="0.02"/><geom type="capsule" size="0.02 0.1"/></body>
+        <body name="tip"><geom type="sphere" size="0.02" density="0"/>
+          <geom density="0" type="capsule" size="0.02 0.1"/></body>
       </body>
     </body>
   </worldbody>
@@ -60,7 +61,7 @@ def test_what_may_collide_is_held_and_all_else_stays(arm, tmp_path, capsys):
     assert run(arm, out, "--capsules", 2, "--json") == cli.DONE
     said = capsys.readouterr()
     assert [link["count"] for link in json.loads(said.out)["links"]] == [1, 2, 0]
-    assert "the inertia of 'arm', 'tip' comes from the geoms" in said.err
+    assert "the inertia of 'arm' comes from the geoms" in said.err
     bodies = {body.get("name"): body for body in ElementTree.parse(out).getroot().iter("body")}
     rng = np.random.default_rng(0)
     for link in read_robot(arm)[0].links[:2]:
@@ -76,7 +77,7 @@ def test_what_may_collide_is_held_and_all_else_stays(arm, tmp_path, capsys):
     pattern = rb'\s*<geom (?!type="(?:plane|sphere)|class="seen)[^>]*/>'
     old, new = (re.sub(pattern, b"", path.read_bytes()) for path in (arm, out))
     assert old == new and new.count(b"<geom") == 3
-    assert b'<geom type="capsule" size="0.02 0.1"/></body>' in out.read_bytes()
+    assert b'<geom density="0" type="capsule" size="0.02 0.1"/></body>' in out.read_bytes()
     assert run(arm, tmp_path / "balls.mjcf", "--balls", 3) == cli.DONE
     balls = (tmp_path / "balls.mjcf").read_text(encoding="utf-8")
     assert balls.count(' condim="4" mesh="" mass="0.5"') == 3 and balls.count('name="rim') == 1
@@ -95,7 +96,8 @@ TURNS = [
     ('eulerseq="ZYX"', 'euler="1 2 3"', Rotation.from_euler("zyx", [1, 2, 3], degrees=True)),
     ("", 'zaxis="3 0 4"', TO_AXIS),
     ("", 'xyaxes="0 2 0 -1 5 0"', Rotation.from_euler("z", 90, degrees=True)),
-    ("", 'class="turned"', Rotation.from_euler("x", 30, degrees=True)),
+    ("", 'zaxis="0 0 -1"', Rotation.from_euler("x", 180, degrees=True)),
+    ("", 'class="inner"', Rotation.from_euler("x", 30, degrees=True)),
     ("", 'class="turned" zaxis="3 0 4" quat="0 1 0 0"', TO_AXIS),
 ]
 
@@ -109,8 +111,9 @@ def test_turns(tmp_path, compiler, words, turn):
 
 def of_geom(tmp_path, words, compiler="", more=""):
     (tmp_path / "a.xml").write_text(
-        f'<mujoco><compiler {compiler}/><default><default class="turned"><geom euler="30 0 0"/></default>'
-        f'<default class="far"><geom fromto="0 0 0 1 1 1"/></default></default>{more}'
+        f'<mujoco><compiler {compiler}/><default><default class="turned"><geom euler="30 0 0"/>'
+        f'<default class="inner"/></default><default class="far"><geom fromto="0 0 0 1 1 1"/></default></default>'
+        f'<sensor><framepos objtype="body" objname="b"/><framepos objtype="geom" objname="y"/></sensor>{more}'
         f'<worldbody><body name="b"><geom {words}/></body></worldbody></mujoco>'
     )
     return read_robot(tmp_path / "a.xml")[0].links
@@ -119,7 +122,7 @@ def of_geom(tmp_path, words, compiler="", more=""):
 @pytest.mark.parametrize(
     "words, mesh",
     [
-        ('size="2"', ball_mesh(2.0)),
+        ('size="2" name="b"', ball_mesh(2.0)),
         ('type="capsule" size="1 3"', ball_mesh(1.0, 3.0)),
         ('type="cylinder" size="1 3 9"', cylinder_mesh(1.0, 6.0)),
         ('type="cylinder" size="1" fromto="0 0 3 0 0 -3"', cylinder_mesh(1.0, 6.0)),
@@ -135,9 +138,10 @@ def test_geoms(tmp_path, words, mesh):
 def test_a_mesh_is_moved_and_scaled(tmp_path):
     points, triangles = box_mesh(np.array([1.0, 2.0, 3.0]))
     write_off(tmp_path / "m.off", (points, triangles))
-    more = '<asset><mesh name="m" file="m.off" scale="1 -2 3" refpos="1 2 3" refquat="0 0 0 1"/></asset>'
+    more = '<asset><mesh name="m" file="m.off" scale="1 -2 3" refpos="1 2 3" refquat="1 0 0 1"/></asset>'
     (link,) = of_geom(tmp_path, 'type="mesh" mesh="m"', more=more)
-    assert link.points == pytest.approx((points - [1, 2, 3]) * [-1, 2, 3])
+    expected = Rotation.from_euler("z", -90, degrees=True).apply(points - [1, 2, 3]) * [1, -2, 3]
+    assert link.points == pytest.approx(expected)
     assert (link.triangles == triangles[:, ::-1]).all()
 
 
@@ -149,13 +153,14 @@ def test_a_mesh_is_moved_and_scaled(tmp_path):
         ('type="mesh" mesh="m"', "Expected a file of the mesh 'm', found none"),
         ('type="box" size="1 2"', "Expected 3 numbers above 0 as size of <geom>, found '1 2'"),
         ('size="1" zaxis="0 0 0"', "found a length of 0"),
+        ('name="y" size="1"', "Expected geoms that nothing names, found 'y' in <framepos>"),
         ('name="x" size="1"', "Expected geoms that nothing names, found 'x' in <pair>"),
         ('class="far"', "Expected fromto of single geoms, found one of a class"),
         ('size="1"/><geom size="1" contype="2"', "geoms of one contype and conaffinity"),
     ],
 )
 def test_bodies_that_stay(tmp_path, words, said):
-    (link,) = of_geom(tmp_path, words, more='<contact><pair geom1="x" geom2="y"/></contact>')
+    (link,) = of_geom(tmp_path, words, more='<contact><pair geom1="x" geom2="z"/></contact>')
     assert said in link.problem
 
 

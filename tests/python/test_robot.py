@@ -198,6 +198,7 @@ def test_primitives_are_closed_and_hold_the_round_ones():
         (box_mesh(np.array([1.0, 2.0, 3.0])), 6.0),
         (cylinder_mesh(0.5, 2.0), 0.5 * np.pi),
         (ball_mesh(0.5), np.pi / 6),
+        (ball_mesh(0.5, 1.0), np.pi / 6 + np.pi / 2),
     ):
         shape = Shape(*mesh)
         assert shape.open_edges == 0 and shape.solid_betti == (1, 0, 0)
