@@ -147,6 +147,17 @@ def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
     assert b"ring.off" in (tmp_path / "out.urdf").read_bytes()
 
 
+def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
+    box = "<collision><geometry><box size='2 1 1'/></geometry></collision>"
+    links = "".join(f"<link name='{name}'>{box}</link>" for name in "ab")
+    (tmp_path / "a.urdf").write_text(f"<robot>{links}</robot>")
+    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf", "--json") == cli.DONE
+    one, other = json.loads(capsys.readouterr().out)["links"]
+    assert one["seconds"] > 0.0 == other["seconds"] and other["name"] == "b"
+    assert {**one, "name": "b", "seconds": 0.0} == other
+    assert (tmp_path / "b.urdf").read_text().count("<cylinder") == 2
+
+
 @pytest.mark.parametrize(
     "text, said",
     [
