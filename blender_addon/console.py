@@ -107,7 +107,7 @@ def _ended(report: dict[str, Any]) -> str:
 def _link(link: dict[str, Any]) -> str:
     """A row of the table of links."""
     if link["problem"] or not link["count"]:
-        return f"{link['name']}: {link['problem'] or 'spheres, as it was'}"
+        return f"{link['name']}: {link['problem'] or 'spheres or capsules, as it was'}"
     shapes = link["shapes"][:-1] if link["count"] == 1 else link["shapes"]
     return (
         f"{link['name']}: {link['count']:,} {shapes}, volume {link['volume']:.4g}, "

@@ -17,6 +17,7 @@ from medial_axis.core.errors import (
 )
 from support import meshes, swept
 from support.distance import points_on_triangles
+from support.robot_shapes import shapes_of
 from support.shape_meshes import of_capsule
 from support.shapes import SHAPES
 
@@ -431,14 +432,18 @@ def test_refined_balls_around_reach_out_no_farther_than_greedy_ones(count):
 
 
 @pytest.mark.slow
-def test_the_hand(data_file):
-    shape = medial_axis.read(data_file("hand_closed.obj"))
-    balls = covered((shape.points, shape.triangles), count=64).balls
-    assert balls.covered > 0.8 and len(balls.radii) == 64 and balls.outside == 0.0
-    assert balls.farthest < 0.03 * np.linalg.norm(np.ptp(shape.points, axis=0))
-    around = covered((shape.points, shape.triangles), count=64, mode="around").balls
-    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
-    assert around.farthest == 0.0 and around.outside < 0.04 * diagonal
+@pytest.mark.parametrize(
+    "shapes, count, left, beyond",
+    [("balls", 64, 0.03, 0.04), ("capsules", 50, 0.06, 0.06), ("tapered", 50, 0.06, 0.06)],
+)
+def test_the_hand(data_file, shapes, count, left, beyond):
+    hand = medial_axis.read(data_file("hand_closed.obj"))
+    solid, diagonal = (hand.points, hand.triangles), np.linalg.norm(np.ptp(hand.points, axis=0))
+    balls = covered(solid, count=count, shapes=shapes).balls
+    assert balls.outside == 0.0 and balls.farthest < left * diagonal
+    assert shapes != "balls" or (balls.covered > 0.8 and len(balls.radii) == 64)
+    around = covered(solid, count=count, shapes=shapes, mode="around").balls
+    assert around.farthest == 0.0 and around.outside < beyond * diagonal
 
 
 @pytest.mark.parametrize(
@@ -457,9 +462,10 @@ def test_options_are_checked(options, words):
         covered(BALL, **options)
 
 
-def test_flat_points_are_refused():
+@pytest.mark.parametrize("shapes", ["balls", "capsules"])
+def test_flat_points_are_refused(shapes):
     with pytest.raises(DegenerateInputError):
-        medial_axis.cover_by_balls(np.random.default_rng(1).random((50, 3)) * (1, 1, 0))
+        covered((np.random.default_rng(1).random((50, 3)) * (1, 1, 0),), shapes=shapes)
 
 
 # --- files
@@ -492,66 +498,29 @@ def few():
     return covered(TORUS, count=5, sampling="vertices").balls
 
 
-def links_of(path):
-    """Centres and radii in a file of a robot, by Python's parser."""
-    root = ElementTree.parse(path).getroot()
-    if root.tag == "robot":
-        assert root.get("name") == root.find("link").get("name")
-        spheres = root.findall("link/collision")
-        places = [sphere.find("origin").get("xyz") for sphere in spheres]
-        sizes = [sphere.find("geometry/sphere").get("radius") for sphere in spheres]
-    else:
-        assert root.tag == "mujoco" and root.get("model") == root.find("worldbody/body").get("name")
-        spheres = root.findall("worldbody/body/geom")
-        assert {sphere.get("type") for sphere in spheres} == {"sphere"}
-        places = [sphere.get("pos") for sphere in spheres]
-        sizes = [sphere.get("size") for sphere in spheres]
-    centres = np.array([[float(word) for word in place.split()] for place in places])
-    return root, centres, np.array([float(size) for size in sizes])
-
-
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf", ".xml"])
 @pytest.mark.parametrize("stem", ["arm 1", 'a&b<"c">\'', "Grün\x01", "\udcff手"])
 def test_files_of_robots_hold_the_balls(tmp_path, suffix, stem):
-    path = medial_axis.write_balls(few(), tmp_path / (stem + suffix))
-    root, centres, radii = links_of(path)
-    assert np.array_equal(centres, few().centres) and np.array_equal(radii, few().radii)
+    root = ElementTree.parse(medial_axis.write_balls(few(), tmp_path / (stem + suffix))).getroot()
+    link = root.find("link" if suffix == ".urdf" else "worldbody/body")
+    kinds, ends, radii = zip(*shapes_of(link), strict=True)
+    assert set(kinds) == {"sphere"} and np.array_equal(np.array(ends)[:, 0], few().centres)
+    assert np.array_equal(radii, few().radii)
     name = root.get("name" if suffix == ".urdf" else "model")
-    assert name == stem.replace("\x01", "_").replace("\udcff", "_")
+    assert name == link.get("name") == stem.replace("\x01", "_").replace("\udcff", "_")
 
 
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
-def test_files_of_robots_refuse_balls_without_size(tmp_path, suffix):
+def test_files_of_robots_refuse_what_they_cannot_hold(tmp_path, suffix):
     none = replace(few(), radii=np.where(np.arange(5) == 2, 0.0, few().radii))
-    with pytest.raises(ExportError, match="Expected radii above 0 for a file of a robot, found 0"):
-        medial_axis.write_balls(none, tmp_path / ("arm" + suffix))
+    tapered = covered(TORUS, count=9, sampling="vertices", shapes="tapered").balls
+    for balls, words in (
+        (none, "Expected radii above 0 for a file of a robot, found 0"),
+        (tapered, "found tapered capsules; set Shapes to Capsules"),
+    ):
+        with pytest.raises(ExportError, match=words):
+            medial_axis.write_balls(balls, tmp_path / ("arm" + suffix))
     assert not list(tmp_path.iterdir())
-
-
-def test_mujoco_reads_them(tmp_path):
-    mujoco = pytest.importorskip("mujoco")
-    path = medial_axis.write_balls(few(), tmp_path / "arm.xml")
-    model = mujoco.MjModel.from_xml_path(str(path))
-    assert (model.geom_type == mujoco.mjtGeom.mjGEOM_SPHERE).all()
-    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
-        model.geom_size[:, 0], few().radii
-    )
-    urdf = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
-    model = mujoco.MjModel.from_xml_path(str(urdf))
-    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
-        model.geom_size[:, 0], few().radii
-    )
-
-
-@pytest.mark.parametrize("parser", ["yourdfpy", "urchin"])
-def test_parsers_of_urdf_read_them(tmp_path, parser):
-    module = pytest.importorskip(parser)
-    path = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
-    robot = module.URDF.load(str(path))
-    (link,) = robot.links if parser == "urchin" else robot.robot.links
-    found = link.collisions
-    assert np.allclose([item.origin[:3, 3] for item in found], few().centres)
-    assert np.allclose([item.geometry.sphere.radius for item in found], few().radii)
 
 
 def test_placed_balls_scale(tmp_path):

@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 import medial_axis
 import numpy as np
 import pytest
-from medial_axis.core.errors import DegenerateInputError, ExportError
 from medial_axis.core.portable_angle import angle_of
 from support import meshes, swept
 from support.distance import points_on_triangles
+from support.robot_shapes import shapes_of
 
 TORUS = meshes.torus(1.0, 0.4, 48, 24)
 
@@ -193,18 +193,6 @@ def test_a_box_has_capsules():
     assert not balls.is_tapered and balls.radii.min() > 0.1 * np.ptp(mesh[0], axis=0).min()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("shapes", ["capsules", "tapered"])
-def test_the_hand(data_file, shapes):
-    shape = medial_axis.read(data_file("hand_closed.obj"))
-    solid = shape.points, shape.triangles
-    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
-    inside = medial_axis.cover_by_balls(*solid, count=50, shapes=shapes).balls
-    assert inside.outside == 0.0 and inside.farthest < 0.06 * diagonal
-    around = medial_axis.cover_by_balls(*solid, count=50, shapes=shapes, mode="around").balls
-    assert around.farthest == 0.0 and around.outside < 0.06 * diagonal
-
-
 # --- files
 
 
@@ -221,85 +209,52 @@ def test_files_say_the_same(tmp_path):
     assert [one["radii"] for one in known["capsules"]] == balls.radii[balls.edges].tolist()
 
 
-def numbers(text):
-    return [float(word) for word in text.split()]
-
-
-def turned(rpy):
-    """Where an angle about X, then Y, then Z takes the Z axis."""
-    roll, pitch, yaw = rpy
-    assert roll == 0.0
-    return np.array(
-        [math.sin(pitch) * math.cos(yaw), math.sin(pitch) * math.sin(yaw), math.cos(pitch)]
-    )
-
-
-def test_a_urdf_has_a_cylinder_between_two_spheres(tmp_path):
-    balls = covered(count=9)
-    root = ElementTree.parse(medial_axis.write_balls(balls, tmp_path / "a.urdf")).getroot()
-    found = root.findall("link/collision")
-    assert len(found) == len(balls.radii) + len(balls.edges)
-    cylinders = [one for one in found if one.find("geometry/cylinder") is not None]
-    for one, (first, second) in zip(cylinders, balls.edges, strict=True):
-        origin, shape = one.find("origin"), one.find("geometry/cylinder")
-        half = float(shape.get("length")) / 2 * turned(numbers(origin.get("rpy")))
-        middle = np.array(numbers(origin.get("xyz")))
-        assert np.allclose(middle - half, balls.centres[first], atol=1e-12)
-        assert np.allclose(middle + half, balls.centres[second], atol=1e-12)
-        assert float(shape.get("radius")) == balls.radii[first] == balls.radii[second]
-
-
-def test_an_mjcf_has_a_capsule_for_each(tmp_path):
-    balls = covered(count=9)
-    root = ElementTree.parse(medial_axis.write_balls(balls, tmp_path / "a.mjcf")).getroot()
-    found = [geom for geom in root.iter("geom") if geom.get("type") == "capsule"]
-    assert [numbers(geom.get("fromto")) for geom in found] == balls.centres[balls.edges].reshape(
-        -1, 6
-    ).tolist()
-    assert len(list(root.iter("geom"))) == balls.count
-
-
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
-def test_robots_have_no_tapered_capsules(tmp_path, suffix):
-    with pytest.raises(ExportError, match="found tapered capsules; set Shapes to Capsules"):
-        medial_axis.write_balls(covered("tapered", count=9), tmp_path / ("a" + suffix))
-    assert not list(tmp_path.iterdir())
+def test_files_of_robots_hold_the_capsules(tmp_path, suffix):
+    """A URDF has a cylinder between two spheres, an MJCF a capsule for each."""
+    balls = covered(count=9)
+    root = ElementTree.parse(medial_axis.write_balls(balls, tmp_path / ("a" + suffix))).getroot()
+    found = shapes_of(root.find("link" if suffix == ".urdf" else "worldbody/body"))
+    assert len(found) == (len(balls.radii) + len(balls.edges) if suffix == ".urdf" else balls.count)
+    long = [shape for shape in found if shape[0] != "sphere"]
+    assert {shape[0] for shape in long} == {"cylinder" if suffix == ".urdf" else "capsule"}
+    ends = np.array([shape[1] for shape in long])
+    np.testing.assert_allclose(ends, balls.centres[balls.edges], rtol=0, atol=1e-12)
+    assert np.array_equal([shape[2] for shape in long], balls.radii[balls.edges[:, 0]])
 
 
-def test_mujoco_reads_them(tmp_path):
+@pytest.mark.parametrize("shapes", ["capsules", "balls"])
+@pytest.mark.parametrize("suffix", [".xml", ".urdf"])
+def test_mujoco_reads_them(tmp_path, shapes, suffix):
     mujoco = pytest.importorskip("mujoco")
-    balls = covered(count=9)
-    along = np.diff(balls.centres[balls.edges], axis=1)[:, 0]
-    for suffix, kind in ((".xml", "mjGEOM_CAPSULE"), (".urdf", "mjGEOM_CYLINDER")):
-        path = medial_axis.write_balls(balls, tmp_path / ("arm" + suffix))
-        model = mujoco.MjModel.from_xml_path(str(path))
-        of_kind = model.geom_type == getattr(mujoco.mjtGeom, kind)
-        assert of_kind.sum() == len(balls.edges)
-        sizes = model.geom_size[of_kind]
-        assert np.allclose(sizes[:, 0], balls.radii[balls.edges[:, 0]])
-        assert np.allclose(sizes[:, 1], np.linalg.norm(along, axis=1) / 2)
-        middles = balls.centres[balls.edges].mean(axis=1)
-        assert np.allclose(model.geom_pos[of_kind], middles)
-        for quaternion, way in zip(model.geom_quat[of_kind], along, strict=True):
-            matrix = np.empty(9)
-            mujoco.mju_quat2Mat(matrix, quaternion)
-            axis = matrix.reshape(3, 3)[:, 2]
-            assert abs(axis @ way) == pytest.approx(np.linalg.norm(way), rel=1e-9)
+    path = medial_axis.write_balls(covered(shapes, count=9), tmp_path / ("arm" + suffix))
+    model = mujoco.MjModel.from_xml_path(str(path))
+    link = next(each for each in ElementTree.parse(path).iter() if each.tag in ("link", "body"))
+    for row, (kind, ends, radius) in enumerate(shapes_of(link)):
+        assert model.geom_type[row] == getattr(mujoco.mjtGeom, f"mjGEOM_{kind.upper()}")
+        assert model.geom_size[row, 0] == pytest.approx(radius)
+        assert np.allclose(model.geom_pos[row], ends.mean(axis=0))
+        matrix = np.empty(9)
+        mujoco.mju_quat2Mat(matrix, model.geom_quat[row])
+        along = 0.0 if kind == "sphere" else 2 * model.geom_size[row, 1]
+        assert abs(matrix[2::3] @ (ends[1] - ends[0])) == pytest.approx(along, rel=1e-9)
+        assert np.linalg.norm(ends[1] - ends[0]) == pytest.approx(along, rel=1e-9)
+    assert model.ngeom == row + 1
 
 
+@pytest.mark.parametrize("shapes", ["capsules", "balls"])
 @pytest.mark.parametrize("parser", ["yourdfpy", "urchin"])
-def test_parsers_of_urdf_read_them(tmp_path, parser):
+def test_parsers_of_urdf_read_them(tmp_path, shapes, parser):
     module = pytest.importorskip(parser)
-    balls = covered(count=9)
-    robot = module.URDF.load(str(medial_axis.write_balls(balls, tmp_path / "arm.urdf")))
+    path = medial_axis.write_balls(covered(shapes, count=9), tmp_path / "arm.urdf")
+    robot = module.URDF.load(str(path))
     (link,) = robot.links if parser == "urchin" else robot.robot.links
-    found = [item for item in link.collisions if item.geometry.cylinder is not None]
-    ends = [
-        item.origin[:3, 3]
-        + np.outer((-0.5, 0.5), item.geometry.cylinder.length * item.origin[:3, 2])
-        for item in found
-    ]
-    assert np.allclose(ends, balls.centres[balls.edges])
+    expected = shapes_of(ElementTree.parse(path).find("link"))
+    for item, (_, ends, radius) in zip(link.collisions, expected, strict=True):
+        shape = item.geometry.sphere or item.geometry.cylinder
+        half = getattr(shape, "length", 0.0) / 2 * item.origin[:3, 2]
+        assert np.allclose([item.origin[:3, 3] - half, item.origin[:3, 3] + half], ends)
+        assert shape.radius == pytest.approx(radius)
 
 
 def test_angles_are_those_of_the_c_library():
@@ -309,10 +264,3 @@ def test_angles_are_those_of_the_c_library():
     wanted = [math.atan2(b, a) for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(angle_of(x, y), wanted, rtol=0, atol=1e-15)
     assert angle_of(np.zeros(1), np.zeros(1)) == 0.0
-
-
-def test_no_end_inside_is_refused():
-    with pytest.raises(DegenerateInputError):
-        medial_axis.cover_by_balls(
-            np.random.default_rng(1).random((50, 3)) * (1, 1, 0), shapes="capsules"
-        )

@@ -25,6 +25,7 @@ pytestmark = pytest.mark.docs
 
 ROBOT = """<robot name="a"><link name="b"><collision><geometry><box size="4 1 1"/></geometry></collision></link>
 </robot>"""
+MODEL = """<mujoco><worldbody><body><geom type="box" size="2 1 1"/></body></worldbody></mujoco>"""
 
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
@@ -139,7 +140,7 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
         for frame in range(1, 6) if "#" in name else [0]:
             write(tmp_path / name.replace("####", f"{frame:04d}"))
     if words[0] == "robot":
-        (tmp_path / words[1]).write_text(ROBOT)
+        (tmp_path / words[1]).write_text(ROBOT if words[1].endswith(".urdf") else MODEL)
     if any(name.endswith(".stl") for name in inputs) and words[0] not in ("hollow", "solidify"):
         words += ["--samples", "300"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}

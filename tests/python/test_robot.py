@@ -17,6 +17,7 @@ from medial_axis.core.robot.xml_spans import elements_of
 from medial_axis.core.shape.shape import Shape
 from support.distance import points_on_triangles
 from support.meshes import torus, write_off
+from support.robot_shapes import away, shapes_of
 from support.thick_meshes import block
 
 ARM = """<?xml version="1.0" encoding="UTF-8"?>
@@ -65,35 +66,6 @@ def run(*words):
     return cli.main(["robot", *map(str, words), "--samples", "4000"])
 
 
-def numbers(element, name, usual):
-    return np.array(
-        [float(x) for x in (element.get(name) if element is not None else usual).split()]
-    )
-
-
-def turned(rpy):
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
-
-
-def away(link, places):
-    """How far places are from the spheres and cylinders of a link, by the meaning of URDF; negative inside."""
-    least = np.full(len(places), np.inf)
-    for item in link.iter("collision"):
-        origin = item.find("origin")
-        local = (places - numbers(origin, "xyz", "0 0 0")) @ turned(numbers(origin, "rpy", "0 0 0"))
-        if (sphere := item.find("geometry/sphere")) is not None:
-            gap = np.linalg.norm(local, axis=1) - float(sphere.get("radius"))
-        else:
-            cylinder = item.find("geometry/cylinder")
-            aside = np.linalg.norm(local[:, :2], axis=1) - float(cylinder.get("radius"))
-            gap = np.maximum(aside, np.abs(local[:, 2]) - float(cylinder.get("length")) / 2)
-        least = np.minimum(least, gap)
-    return least
-
-
 @pytest.mark.parametrize("words", [("--capsules", "1"), ("--balls", "12")])
 def test_every_link_is_held(arm, tmp_path, words, capsys):
     out = tmp_path / "out.urdf"
@@ -113,8 +85,12 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
         )
         assert gap.max() <= 1e-9 and told["farthest"] > 0.0 and told["volume"] > 0.0
     assert report["links_left"] == []
-    if "--capsules" in words:  # the least capsule of the box that was found has this volume
-        assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)
+    if "--capsules" in words:
+        assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)  # of the least one
+        for told in report["links"][:3]:
+            _, ends, radius = shapes_of(links[told["name"]])[-1]
+            volume = np.pi * radius**2 * (np.linalg.norm(ends[1] - ends[0]) + 4 / 3 * radius)
+            assert told["volume"] == pytest.approx(volume, rel=1e-9)
 
 
 def test_balls_inside_stay_in_their_link(arm, tmp_path):
@@ -124,11 +100,10 @@ def test_balls_inside_stay_in_their_link(arm, tmp_path):
     ways = np.random.default_rng(0).normal(size=(200, 3))
     ways /= np.linalg.norm(ways, axis=1)[:, None]
     for geometry in read_robot(arm)[0].links[:3]:
-        balls = list(links[geometry.name].iter("collision"))
+        balls = shapes_of(links[geometry.name])
         assert 1 <= len(balls) <= 8
-        for ball in balls:
-            radius = float(ball.find("geometry/sphere").get("radius"))
-            places = numbers(ball.find("origin"), "xyz", "0 0 0") + 0.999 * radius * ways
+        for _, ends, radius in balls:
+            places = ends[0] + 0.999 * radius * ways
             with native.own_errors() as module:
                 winding = module.winding_number(places, geometry.points, geometry.triangles)
             assert winding.min() > 0.5
@@ -159,7 +134,7 @@ def test_a_tolerance_takes_as_few_as_it_needs(arm, tmp_path, capsys):
     said = capsys.readouterr()
     assert "the link 'hand' keeps within" in said.err and "allow more of them" in said.err
     assert "4 links\n  base: 2 balls, volume" in said.out
-    assert "tip: spheres, as it was" in said.out
+    assert "tip: spheres or capsules, as it was" in said.out
 
 
 def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
@@ -172,11 +147,23 @@ def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
     assert b"ring.off" in (tmp_path / "out.urdf").read_bytes()
 
 
+def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
+    box = "<collision><geometry><box size='2 1 1'/></geometry></collision>"
+    links = "".join(f"<link name='{name}'>{box}</link>" for name in "ab")
+    (tmp_path / "a.urdf").write_text(f"<robot>{links}</robot>")
+    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf", "--json") == cli.DONE
+    one, other = json.loads(capsys.readouterr().out)["links"]
+    assert one["seconds"] > 0.0 == other["seconds"] and other["name"] == "b"
+    assert {**one, "name": "b", "seconds": 0.0} == other
+    assert (tmp_path / "b.urdf").read_text().count("<cylinder") == 2
+
+
 @pytest.mark.parametrize(
     "text, said",
     [
         ("<robot><link/></robot>", "Expected links with <collision>, found none"),
-        ("<mujoco/>", "found <mujoco>"),
+        ("<sdf/>", "robot or mujoco, found <sdf>"),
+        ("<mujoco/>", "Expected bodies with geoms that collide, found none"),
         ("<robot", "Expected XML, found"),
         ("<robot xmlns:xacro='x'><xacro:arm/></robot>", "expand them with xacro"),
         ("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>", "Expected no entities"),
@@ -222,6 +209,7 @@ def test_primitives_are_closed_and_hold_the_round_ones():
         (box_mesh(np.array([1.0, 2.0, 3.0])), 6.0),
         (cylinder_mesh(0.5, 2.0), 0.5 * np.pi),
         (ball_mesh(0.5), np.pi / 6),
+        (ball_mesh(0.5, 1.0), np.pi / 6 + np.pi / 2),
     ):
         shape = Shape(*mesh)
         assert shape.open_edges == 0 and shape.solid_betti == (1, 0, 0)

@@ -42,13 +42,18 @@ def write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
     """Write a model of one body that is fixed to the world, with a sphere for each ball, a capsule for each edge."""
     quoted = _quoted(name)
     _write(stream, f"<mujoco model={quoted}>\n  <worldbody>\n    <body name={quoted}>\n")
+    write_geoms(balls, stream)
+    _write(stream, "    </body>\n  </worldbody>\n</mujoco>\n")
+
+
+def write_geoms(balls: Balls, stream: BinaryIO) -> None:
+    """Write a line for each ball that is alone, and one for each capsule."""
     alone, (ends, radii) = balls.single, _capsules(balls)
     sphere = '      <geom type="sphere" pos="%.17g %.17g %.17g" size="%.17g"/>\n'
     write_rows(stream, sphere, balls.centres[alone], balls.radii[alone])
     numbers = " ".join(["%.17g"] * 6)
     capsule = f'      <geom type="capsule" fromto="{numbers}" size="%.17g"/>\n'
     write_rows(stream, capsule, ends.reshape(-1, 6), radii)
-    _write(stream, "    </body>\n  </worldbody>\n</mujoco>\n")
 
 
 def _capsules(balls: Balls) -> tuple[Floats, Floats]:

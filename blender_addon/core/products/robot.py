@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..batch.option_words import add_sampling, as_words, sampling_from
-from ..errors import InvalidInputError
+from ..errors import ExportError, InvalidInputError
+from ..files.extensions import listed
 from ..files.whole_file import write_whole
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
@@ -31,20 +32,20 @@ class Robot(Product):
 
     description = "Robots whose links collide as few balls or capsules that hold them."
     heading = "links"
-    formats = (".urdf",)
+    formats = (".urdf", ".xml", ".mjcf")
     usual = "urdf"
     codes = ((3, "an input, or a link of it, cannot be used"),)
     reads_shapes = False
     read = staticmethod(read_robot)
     help = """\
-INPUT     .urdf, with boxes, cylinders, spheres, and meshes in .stl .obj .ply .off
-OUTPUT    .urdf: the same bytes, but other collision geometry; links of spheres alone stay. A capsule is a
-          cylinder and two spheres.
+INPUT     .urdf or MuJoCo's .xml, with primitives and with meshes in .stl .obj .ply .off
+OUTPUT    the same format and bytes, but other collision geometry; links of spheres alone stay, and in .xml those
+          of capsules. In .urdf a capsule is a cylinder and two spheres.
 
 examples:
   medial_axis robot arm.urdf capsules.urdf
   medial_axis robot arm.urdf balls.urdf --balls 16
-  medial_axis robot arm.urdf close.urdf --tolerance 0.005
+  medial_axis robot arm.xml close.xml --tolerance 0.005
 """
 
     @classmethod
@@ -100,6 +101,11 @@ examples:
             raise InvalidInputError(found.warnings[0])
 
     def write(self, found: RobotCover, path: Path, _frame: np.ndarray) -> tuple[str, ...]:
+        if path.suffix.lower() not in found.robot.extensions:
+            raise ExportError(
+                f"Expected an output in the format of the input, {listed(found.robot.extensions)}, found "
+                f"'{path.name}'; choose another name"
+            )
         shapes = {row: cover.balls for row, cover in enumerate(found.links) if cover.balls}
         data = found.robot.with_shapes(shapes)
         write_whole(path, lambda stream: stream.write(data))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..cover.ball_cover import Balls
@@ -34,7 +34,7 @@ class LinkCover:
         balls = self.balls
         return {
             "name": self.link.name,
-            "collisions": self.link.pieces,
+            "collisions": len(self.link.spans),
             "count": 0 if balls is None else balls.count,
             "shapes": "" if balls is None else "capsules" if len(balls.edges) else "balls",
             "volume": None if balls is None else volume_of(balls),
@@ -62,11 +62,20 @@ def cover_robot(
     progress: Progress,
     limit: MemoryLimit,
 ) -> RobotCover:
-    """Cover the links one after the other; one that cannot be used stays as it was, with a warning."""
+    """Cover the links one after the other; one that cannot be used stays as it was, with a warning.
+
+    Wheels and motors are often the same, and are covered once.
+    """
     start, covers = time.perf_counter(), []
+    known: dict[tuple[object, ...], LinkCover] = {}
     for row, link in enumerate(robot.links):
         progress.begin_section(row / len(robot.links), (row + 1) / len(robot.links))
-        covers.append(_cover(link, settings, wanted, progress, limit))
+        same = link.points.tobytes(), link.triangles.tobytes(), link.kinds, link.problem
+        if same in known:
+            covers.append(replace(known[same], link=link, seconds=0.0))
+            continue
+        known[same] = _cover(link, settings, wanted, progress, limit)
+        covers.append(known[same])
     warnings = [text for cover in covers for text in _warnings(cover, wanted.tolerance)]
     return RobotCover(robot, tuple(covers), tuple(warnings), time.perf_counter() - start)
 
@@ -78,7 +87,7 @@ def _cover(
     progress: Progress,
     limit: MemoryLimit,
 ) -> LinkCover:
-    if link.problem or link.balls_only:
+    if link.problem or set(link.kinds) <= {"sphere", wanted.balls.shapes.name.lower()[:-1]}:
         return LinkCover(link, None, link.problem)
     start = time.perf_counter()
     shape, _ = in_own_frame(Shape(link.points, link.triangles))

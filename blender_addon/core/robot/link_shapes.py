@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import BallSettings, CoverMode, Settings
 from ..shape.shape import Shape
+from ..small_matrices import length_of
 
 
 @dataclass(frozen=True)
@@ -29,10 +31,14 @@ def error_of(balls: Balls) -> float:
 
 
 def volume_of(balls: Balls) -> float:
-    """Return the volume of the union, as counted on a lattice."""
+    """Return the volume of the union: exactly for one ball or capsule, for more as counted on a lattice."""
     alone = balls.single
     rows = np.concatenate([balls.edges, np.column_stack([alone, alone])])
-    return Capsules(balls.centres[rows], balls.radii[rows]).volume()
+    ends, radii = balls.centres[rows], balls.radii[rows]
+    if len(rows) > 1:
+        return Capsules(ends, radii).volume()
+    radius = float(radii[0, 0])
+    return math.pi * radius * radius * (length_of(ends[0, 1] - ends[0, 0]) + radius * 4 / 3)
 
 
 def cover_link(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boxes, cylinders and balls as closed meshes that hold the solid, so that whatever holds the mesh holds it, too."""
+"""Boxes, cylinders, balls and capsules as closed meshes that hold the solid, so that what holds the mesh holds it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..small_matrices import dot
 Mesh = tuple[Floats, Ints]
 
 _AROUND = 48  # sides of a cylinder, which is 0.2 % wider than the round one
-_RINGS = 24  # of a ball
+_RINGS = 25  # of a ball; none lies on its equator, where a capsule has a wall
 
 
 def box_mesh(size: Floats) -> Mesh:
@@ -33,12 +33,13 @@ def cylinder_mesh(radius: float, length: float) -> Mesh:
     return _turned([(0.0, -length / 2), (wide, -length / 2), (wide, length / 2), (0.0, length / 2)])
 
 
-def ball_mesh(radius: float) -> Mesh:
-    """Return a ball round the origin, whose nearest faces touch the round one."""
+def ball_mesh(radius: float, half: float = 0.0) -> Mesh:
+    """Return a ball round the origin, or a capsule along Z, twice `half` longer; nearest faces touch the round one."""
     angles = [math.pi * k / _RINGS for k in range(_RINGS + 1)]
     points, triangles = _turned([(cosine(x - math.pi / 2), -cosine(x)) for x in angles])
     distance = dot(unit_normals(points[triangles])[0], points[triangles[:, 0]])
-    return points * (radius / float(distance.min())), triangles
+    points = points * (radius / float(distance.min()))
+    return points + [0, 0, half] * np.sign(points), triangles
 
 
 def _turned(profile: list[tuple[float, float]]) -> Mesh:

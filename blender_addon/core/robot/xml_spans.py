@@ -85,24 +85,25 @@ def elements_of(data: bytes) -> Element:
     return top.children[0]
 
 
-def replaced(data: bytes, edits: Iterable[tuple[Sequence[Element], Sequence[str]]]) -> bytes:
+def replaced(
+    data: bytes, edits: Iterable[tuple[Sequence[tuple[int, int]], Sequence[str]]]
+) -> bytes:
     """Return a file in which groups of elements have become others.
 
     Parameters
     ----------
     data : bytes
-    edits : iterable of (elements, lines)
+    edits : iterable of (spans of elements, lines)
         The lines replace the first of the elements, in ASCII or else as references, and stand where it stood; the
         others go with their lines.
     """
     pieces: list[tuple[int, int, bytes]] = []
-    for elements, lines in edits:
-        for number, element in enumerate(elements):
-            lead = _LEAD.search(data, max(0, element.start - 1000), element.start)
+    for spans, lines in edits:
+        for number, (start, end) in enumerate(spans):
+            lead = _LEAD.search(data, max(0, start - 1000), start)
             before = b"" if lead is None else lead[0]
             new = before.join(line.encode("ascii", "xmlcharrefreplace") for line in lines)
-            gone = element.start - len(before)
-            pieces.append((gone, element.end, b"") if number else (element.start, element.end, new))
+            pieces.append((start - len(before), end, b"") if number else (start, end, new))
     done, at = [], 0
     for begin, end, new in sorted(pieces):
         done += [data[at:begin], new]

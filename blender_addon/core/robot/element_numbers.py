@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers of an element's attributes, and the turns that they mean."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ReadError
+from ..portable_cosine import cosine
+from ..small_matrices import times
+from .xml_spans import Element
+
+HALF_PI = math.pi / 2
+
+
+def numbers_of(
+    element: Element, name: str, count: int, usual: str = "", signed: bool = False
+) -> Floats:
+    """Return the numbers of an attribute: `count` finite ones, above 0 unless signed."""
+    text = element.attributes.get(name, usual)
+    try:
+        numbers = np.array([float(word) for word in text.split()])
+    except ValueError:
+        numbers = np.empty(0)
+    if (
+        len(numbers) != count
+        or not np.isfinite(numbers).all()
+        or not (signed or (numbers > 0).all())
+    ):
+        what = "number" if count == 1 else "numbers"
+        above = "" if signed else " above 0"
+        raise ReadError(
+            f"Expected {count} {what}{above} as {name} of <{element.tag}>, found '{text}'; correct it"
+        )
+    return numbers
+
+
+def turn_of(angles: Floats, order: str) -> Floats:
+    """Return the matrix of turns one after the other: about axes that stay, 'XYZ', or that are turned along, 'xyz'."""
+    turn = np.identity(3)
+    for angle, letter in zip(angles.tolist(), order, strict=True):
+        axis, cos, sin = "xyz".index(letter.lower()), cosine(angle), cosine(angle - HALF_PI)
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        about = np.identity(3)
+        about[i, i] = about[j, j] = cos
+        about[i, j], about[j, i] = -sin, sin
+        turn = times(about, turn.T) if letter.isupper() else times(turn, about.T)
+    return turn
