@@ -265,22 +265,40 @@ EvenMesh plane_sheet(int side) {
           std::vector<Vec3>(count, Vec3{0, 0, 1})};
 }
 
-TEST(Remesh, APlaneSheetBecomesEvenAndKeepsItsArea) {
-  EvenMesh even = plane_sheet(40);
-  for (int round = 0; round < 6; ++round) remesh(even, {}, {});
-  double area = 0, least = HUGE_VAL;
+struct Measured {
   int count = 0;
+  double area = 0, least = HUGE_VAL;  // the lowest triangle's height by its longest edge
+};
+
+Measured measured(const EvenMesh& even) {
+  Measured found;
   for (const auto& [a, b, c] : left_of(even.mesh)) {
     const Vec3 &p = even.position[a], &q = even.position[b], &r = even.position[c];
     const double twice = cross(q - p, r - p).z;
     const double longest = std::max({distance(p, q), distance(q, r), distance(r, p)});
-    area += twice / 2;
-    least = std::min(least, twice / (longest * longest));
-    ++count;
+    found.area += twice / 2;
+    found.least = std::min(found.least, twice / (longest * longest));
+    ++found.count;
   }
+  return found;
+}
+
+TEST(Remesh, APlaneSheetBecomesEvenAndKeepsItsArea) {
+  EvenMesh even = plane_sheet(40);
+  for (int round = 0; round < 6; ++round) remesh(even, {}, {});
+  const auto [count, area, least] = measured(even);
   EXPECT_NEAR(area, 1, 1e-12);  // nothing is turned over, and the rim is straight
   EXPECT_GT(least, 0.35);
   EXPECT_LT(count, 2 * 40 * 40 / 8);
+}
+
+TEST(Remesh, WhatIsOnePlaceIsMergedAndTurnsNothingOver) {
+  EvenMesh even = plane_sheet(40);
+  merge_close(even, std::vector<double>(even.position.size(), 1.5 / 40));
+  const auto [count, area, least] = measured(even);
+  EXPECT_NEAR(area, 1, 1e-12);
+  EXPECT_GT(least, 0);
+  EXPECT_LT(count, 2 * 40 * 40 / 3);
 }
 
 TEST(Remesh, TheCurvatureOfARolledSheetIsThatOfItsCylinder) {

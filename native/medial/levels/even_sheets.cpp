@@ -19,7 +19,7 @@ constexpr double kEdge = 2.8;       // the edge wanted: 1.7 distances of samples
 constexpr double kLeastEdge = 1.3;  // in narrow sheets: nothing to gain below; chosen: axis
 // where a sheet is curved: half the distance of samples, below which they know no curvature
 constexpr double kLeastOfCurved = 0.8;  // derived: 0.5 / 0.6
-constexpr double kMerged = 0.3;  // that Voronoi vertices of one place are apart; chosen: axis
+constexpr double kMerged = 0.3;   // that Voronoi vertices of one place are apart; chosen: axis
 constexpr double kOfArea = 2.5;   // the same in sides of a facet, for rough scans; chosen: axis
 constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet; chosen: axis
 constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most; chosen: axis
@@ -68,38 +68,42 @@ class EvenSheets {
 
   EvenMesh start() {
     Simplices simplices = simplices_of(level_);
-    const size_t old = level_.vertices.size(), all = old + simplices.centres.size();
-    std::vector<int32_t> origin(all);
+    std::vector<int32_t> origin(level_.vertices.size());
     std::iota(origin.begin(), origin.end(), 0);
     std::vector<Vec3> position(level_.vertices.begin(), level_.vertices.end());
     radius_.assign(level_.radius.begin(), level_.radius.end());
-    for (size_t i = 0; i < simplices.centres.size(); ++i) {
-      const int32_t f = simplices.centres[i];
+    for (const int32_t f : simplices.centres) {
       const auto begin = level_.face_offsets[f], end = level_.face_offsets[f + 1];
       Vec3 sum;
       for (int32_t c = begin; c < end; ++c) sum = sum + position[level_.face_vertices[c]];
-      origin[old + i] = level_.face_vertices[begin];
       position.push_back((1.0 / (end - begin)) * sum);
-      radius_.push_back(radius_[origin[old + i]]);
+      origin.push_back(level_.face_vertices[begin]);
+      radius_.push_back(radius_[origin.back()]);
     }
+    EvenMesh even = mesh_of(std::move(simplices), std::move(position), std::move(origin));
+    find_holes(even);
+    return even;
+  }
+
+  EvenMesh mesh_of(Simplices simplices, std::vector<Vec3> position,
+                   std::vector<int32_t> origin) const {
     std::vector<Vec3> normal;
     for (const int32_t f : simplices.source) {
       const auto& [p, q] = generators_[f];
       normal.push_back(normalized((*h_.samples)[q] - (*h_.samples)[p]));
     }
-    std::vector<uint8_t> is_node(all, 0);
+    const size_t count = position.size();
+    std::vector<uint8_t> is_node(count, 0);
     for (const int32_t v : level_.points) is_node[v] = 1;
-    SheetComplex mesh(static_cast<int32_t>(all), std::move(simplices.triangles), level_.wires,
+    SheetComplex mesh(static_cast<int32_t>(count), std::move(simplices.triangles), level_.wires,
                       is_node);
-    EvenMesh even{std::move(mesh),
-                  std::move(position),
-                  std::vector<double>(all),
-                  std::move(origin),
-                  std::vector<uint8_t>(all, kFree),
-                  std::move(simplices.source),
-                  std::move(normal)};
-    find_holes(even);
-    return even;
+    return {std::move(mesh),
+            std::move(position),
+            std::vector<double>(count),
+            std::move(origin),
+            std::vector<uint8_t>(count, kFree),
+            std::move(simplices.source),
+            std::move(normal)};
   }
 
   // Finds the largest hole between the samples at each vertex, and the mean area of its facets.
