@@ -111,6 +111,15 @@ def test_a_rim_of_63_degrees_is_no_wall(around):
     assert find_thin_parts(found, 0.25).share == 0.0
 
 
+def test_a_lid_is_measured_where_it_is():
+    """Places beside a rim of 55 degrees were moved towards it, as curved triangles are wider than flat ones."""
+    found = measure(lathe([(0, 0.0), (0.601, 0.0), (0.852, 0.353), (0, 0.353)], 50), Settings())
+    away = 0.852 - np.hypot(*found.points[:, :2].T)
+    at = (found.points[:, 2] == 0.353) & ~found.at_edge & (away < 0.1) & (away > 0.01)
+    truth = 2 * np.tan(np.arctan2(0.353, 0.251) / 2) * away[at]
+    np.testing.assert_allclose(found.lengths[at], truth, rtol=0.02)
+
+
 def test_thicken_leaves_a_frustum_alone():
     points, triangles = frustum(32)
     shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
