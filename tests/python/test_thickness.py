@@ -85,13 +85,6 @@ def test_plates_from_eight_vertices(thickness, scale, seed, mirror):
     assert found.of_triangles.min() > 0.95 * thickness * scale
 
 
-def test_no_face_of_the_box_reads_below_its_thickness():
-    """Where a ball shrinks to nothing at every edge."""
-    found, ball = measure(BOX), measure(BOX, edges=Edges.BALL)
-    assert found.of_triangles.min() >= 0.35 and found.lengths.min() >= 0.35
-    assert ball.lengths.min() < 0.05 and np.mean(ball.lengths < 0.1) > 0.2
-
-
 CYLINDER = lathe([(0, 0), (0.5, 0), (0.5, 2.0), (0, 2.0)])
 
 
@@ -556,14 +549,6 @@ def test_clean_samples_have_no_noise():
     for mesh in (BOX, shell(), CYLINDER):
         found = measure(mesh)
         assert found.noise < 0.02 and not any("scatter" in warning for warning in found.warnings)
-
-
-def test_openings_are_closed():
-    """A box without its lid is as thick as with it."""
-    vertices, triangles = BOX
-    found = measure((vertices, triangles[:-2]))
-    assert found.chosen.gaps == 4
-    assert_bars(found.lengths, 0.4)
 
 
 @pytest.mark.parametrize("bend", [0.0, 60.0])
