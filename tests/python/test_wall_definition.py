@@ -147,11 +147,9 @@ def test_faces_that_cross_are_no_thin_wall():
 
 def test_a_wall_ends_where_parts_cross():
     """The lower box ends at y = 0.16: balls below the other one touch that edge, and no plane beyond it."""
-    low, high = (
-        block(0.54, 0.25, 0.24, (0.27, 0.125, 0.12)),
-        block(0.82, 0.88, 0.68, (0.68, 0.6, 0.42)),
-    )
-    mesh = join(low, join(high, (np.identity(3), np.zeros((0, 3), int))))
+    low = block(0.54, 0.25, 0.24, (0.27, 0.125, 0.12))
+    mesh = join(low, block(0.82, 0.88, 0.68, (0.68, 0.6, 0.42)))
+    mesh = join(mesh, (np.identity(3), np.zeros((0, 3), int)))
     points, triangles = turned(mesh, np.random.default_rng(2), 0.0)
     x, y, z = points[-3:] @ (found := measure((points[:-3], triangles))).points.T
     under = found.measured & (abs(z - 0.08) < 1e-9) & (x > 0.3) & (x < 0.52) & (y < 0.3)
