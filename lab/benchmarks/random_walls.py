@@ -25,7 +25,7 @@ from medial_axis.core.settings import Settings, ThicknessSettings  # noqa: E402
 from medial_axis.core.shape.shape import Shape  # noqa: E402
 from medial_axis.core.thickness.measurement import Measurement  # noqa: E402
 from medial_axis.core.thickness.thickness import measure_thickness  # noqa: E402
-from support import thick_meshes, thin_solids  # noqa: E402
+from support import meshes, thick_meshes, thin_solids  # noqa: E402
 from support.meshes import Mesh  # noqa: E402
 
 Array = NDArray[np.float64]
@@ -189,7 +189,7 @@ def assembly(rng: np.random.Generator) -> Trial:
         boxes.append((tuple(low), tuple(low + size)))
         low = low + rng.uniform(0.2, 0.8, 3) * size
     parts = [thick_meshes.block(*np.subtract(b, a), tuple(np.add(a, b) / 2)) for a, b in boxes]
-    return replace(flat_faces(thin_solids.union(*boxes)), mesh=thick_meshes.joined(*parts))
+    return replace(flat_faces(thin_solids.union(*boxes)), mesh=meshes.join(*parts))
 
 
 def open_assembly(rng: np.random.Generator) -> Trial:

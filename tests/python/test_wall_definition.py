@@ -111,6 +111,15 @@ def test_a_rim_of_63_degrees_is_no_wall(around):
     assert find_thin_parts(found, 0.25).share == 0.0
 
 
+def test_a_lid_is_measured_where_it_is():
+    """Places beside a rim of 55 degrees were moved towards it, as curved triangles are wider than flat ones."""
+    found = measure(lathe([(0, 0.0), (0.601, 0.0), (0.852, 0.353), (0, 0.353)], 50), Settings())
+    away = 0.852 - np.hypot(*found.points[:, :2].T)
+    at = (found.points[:, 2] == 0.353) & ~found.at_edge & (away < 0.1) & (away > 0.01)
+    truth = 2 * np.tan(np.arctan2(0.353, 0.251) / 2) * away[at]
+    np.testing.assert_allclose(found.lengths[at], truth, rtol=0.02)
+
+
 def test_thicken_leaves_a_frustum_alone():
     points, triangles = frustum(32)
     shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
@@ -134,6 +143,17 @@ def test_faces_that_cross_are_no_thin_wall():
     mesh = join(block(1, 1, 0.6, (0.5, 0.5, 0.3)), block(0.55, 0.6, 0.8, (1.225, 1.2, 0.8)))
     found = measure(mesh, Settings(samples=4000))
     assert found.surface.between_walls is None and 0.15 < found.minimum < 0.22
+
+
+def test_a_wall_ends_where_parts_cross():
+    """The lower box ends at y = 0.16: balls below the other one touch that edge, and no plane beyond it."""
+    low = block(0.54, 0.25, 0.24, (0.27, 0.125, 0.12))
+    mesh = join(low, block(0.82, 0.88, 0.68, (0.68, 0.6, 0.42)))
+    mesh = join(mesh, (np.identity(3), np.zeros((0, 3), int)))
+    points, triangles = turned(mesh, np.random.default_rng(2), 0.0)
+    x, y, z = points[-3:] @ (found := measure((points[:-3], triangles))).points.T
+    under = found.measured & (abs(z - 0.08) < 1e-9) & (x > 0.3) & (x < 0.52) & (y < 0.3)
+    assert (found.lengths[under] > 0.16 + (y[under] - 0.16) ** 2 / 0.16).all()
 
 
 @pytest.mark.parametrize("wide", [0.02, 0.1])

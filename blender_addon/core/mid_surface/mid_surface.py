@@ -26,7 +26,7 @@ from ..samples.sample_spacing import mean_spacing
 from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, ThicknessSettings
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
-from ..shape.solid_faces import sharp_angle_of
+from ..shape.solid_faces import SolidFaces, sharp_angle_of
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough
@@ -154,7 +154,7 @@ def mid_surface(
     thin = thin_sheets(found.axis, found.chosen.samples.patches, wanted.least_width)
     if not len(thin.triangles):
         raise _nothing_thin(wanted)
-    sheets = _welded(carried(thin, _walls(shape, settings)))
+    sheets = _welded(carried(thin, _walls(shape, found.chosen.samples.solid, settings)))
     plate = cut_out_plate(shape, sheets)
     if plate is not None and are_enough(shape, settings, ThicknessSettings()):
         sheets = _welded(plate)
@@ -170,12 +170,13 @@ def _nothing_thin(wanted: MidSurfaceSettings) -> InvalidInputError:
     )
 
 
-def _walls(shape: Shape, settings: Settings) -> Walls:
+def _walls(shape: Shape, solid: SolidFaces | None, settings: Settings) -> Walls:
+    """The faces, with the edges that are sharp for the axis."""
     with own_errors() as module:
         edges, convex, _ = module.BallFaces(
             shape.points,
             shape.triangles,
-            sharp_angle=sharp_angle_of(shape, settings),
+            sharp_angle=solid.options(settings)[0] if solid else sharp_angle_of(shape, settings),
             sharp_edges=shape.sharp_edges,
         ).creases()
     return Walls(shape.points, shape.triangles, edges[~convex])

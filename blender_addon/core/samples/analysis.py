@@ -51,7 +51,7 @@ def analyse(
         patches = _patches(plan, samples, options["sharp_angle"])
         density = _density(plan, samples, analysis, first)
     walls, by_faces = beside.result()
-    flat = plan.of_faces and not options["smooth"]
+    flat = options["sharp_angle"] if plan.of_faces and not options["smooth"] else 0.0
     left = replace(samples, spacing=first, radius=None, edges=None, places=None)
     return Analysed(
         **vars(left),

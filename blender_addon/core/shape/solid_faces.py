@@ -26,17 +26,18 @@ class SolidFaces:
     shape : Shape
     face : (n,) int32
         The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
-    flat : bool
-        The samples lie on the flat faces, whatever the settings say.
+    flat : float
+        The samples lie on the flat faces, whatever the settings say, with edges that are sharp from this angle on; 0.0:
+        as the settings say.
     """
 
     shape: Shape
     face: Ints
-    flat: bool = False
+    flat: float = 0.0
 
     def options(self, settings: Settings) -> tuple[float, bool]:
         """Return the sharp angle and whether the faces approximate a smooth surface."""
-        return sharp_angle_of(self.shape, settings), settings.smooth and not self.flat
+        return self.flat or sharp_angle_of(self.shape, settings), settings.smooth and not self.flat
 
     def of_module(self, module: Any, sharp_angle: float, smooth: bool) -> Any:
         """Return the `_medial.Faces`, with `options`."""
@@ -52,7 +53,7 @@ class SolidFaces:
 
 
 def solid_faces(
-    shape: Shape, source: SidesFrom, face: Ints | None = None, flat: bool = False
+    shape: Shape, source: SidesFrom, face: Ints | None = None, flat: float = 0.0
 ) -> SolidFaces | None:
     """Return the faces of a shape if they decide what is inside, and None otherwise.
 
@@ -62,7 +63,7 @@ def solid_faces(
     source : SidesFrom
     face : (n,) int32, optional
         The triangle on which each sample lies; the default is a triangle at each vertex.
-    flat : bool
+    flat : float
         As in `SolidFaces`.
     """
     if source is not SidesFrom.SURFACE or not len(shape.triangles) or not shape.volume > 0:

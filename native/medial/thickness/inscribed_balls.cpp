@@ -94,7 +94,7 @@ class Shrinking {
     if (t < 0) return x;
     x.turned = turned(t);
     x.sheet = sheet_[t];
-    const Foot foot = faces_.lifted(t, x.point);
+    const Foot foot = foot_of(t, x.point);
     const bool at_vertex = foot.at.a == 1 || foot.at.b == 1 || foot.at.c == 1;
     if (!at_vertex) x.unknown = kUnknown * faces_.bulge(t);
     if (faces_.is_curved(t)) x.spacing = std::max(x.spacing, width_of(faces_.mesh(), t));
@@ -103,6 +103,14 @@ class Shrinking {
     x.normal = faces_.normal(t, foot.at);
     x.tilted = length(x.normal - faces_.normal_of_patch(t, foot.at));
     return x;
+  }
+
+  // Returns the place of the smooth surface that a place of a flat triangle is: the nearest one, as
+  // the same share of a curved triangle may be farther along it, and so nearer to a rim. Where the
+  // nearest one is on the rim itself, the share keeps off it.
+  Foot foot_of(int32_t triangle, const Vec3& point) const {
+    const Foot nearest = faces_.foot_on(triangle, point);
+    return faces_.is_at_end(nearest) ? faces_.lifted(triangle, point) : nearest;
   }
 
   // Returns the largest ball, which may start from one that touches close by.

@@ -15,9 +15,10 @@ struct Width {
 };
 
 // Returns the width; `inward` is 1 if the balls are against the normals, -1 if along them. The
-// plane at q stands for the surface as far as the samples round it.
+// plane at q stands for the surface as far as the samples round it. Where these end, as at parts
+// that cross, they seem far apart, and samples on the other wall say how far apart they are.
 Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
-            bool q_at_edge, bool q_reflex, double q_spacing, double inward) {
+            bool q_at_edge, bool q_reflex, double spacing, double inward) {
   const Vec3 apart = p - q;
   const double height = inward * dot(normal_p, apart);
   if (!(height > 0)) return {};
@@ -29,7 +30,7 @@ Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& norm
   found.between = found.diameter;
   const double planes = -2 * inward * dot(normal_q, apart) / (1 - cosine);
   const Vec3 foot = p - 0.5 * planes * inward * (normal_p - normal_q);
-  if (!q_at_edge && planes > 0 && distance(foot, q) <= q_spacing) {
+  if (!q_at_edge && planes > 0 && distance(foot, q) <= spacing) {
     found.between = std::min(found.between, planes);
   }
   return found;
@@ -44,7 +45,7 @@ std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tan
   const auto at = [&](int32_t p, int32_t q) {
     if (tangents.edge[p]) return Width{};
     return width(points[p], points[q], tangents.normals[p], tangents.normals[q], tangents.edge[q],
-                 tangents.reflex[q], spacing[q], inward);
+                 tangents.reflex[q], std::min(spacing[q], 2 * spacing[p]), inward);
   };
   parallel_for(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t i) {
     const auto& [p, q] = edges.ends[edge_ids[i]];
