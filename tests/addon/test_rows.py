@@ -37,8 +37,8 @@ class Layout:
     label = prop = operator = menu = _item
 
 
-def seen(is_colour=False):
-    """A viewport whose sidebar is wide, as panels ask for it."""
+def seen(is_colour=False, width=400):
+    """A viewport with a sidebar, as panels ask for it."""
     shading = SimpleNamespace(type="SOLID", color_type="VERTEX" if is_colour else "MATERIAL")
     words = (
         "scene",
@@ -50,8 +50,12 @@ def seen(is_colour=False):
     )
     return SimpleNamespace(
         space_data=SimpleNamespace(shading=shading, as_pointer=lambda: 0),
-        region=SimpleNamespace(width=400, as_pointer=lambda: 0),
-        preferences=bpy.context.preferences,
+        region=SimpleNamespace(width=width, as_pointer=lambda: 0),
+        preferences=SimpleNamespace(
+            system=SimpleNamespace(ui_scale=1.0),  # without a window it is 0
+            ui_styles=bpy.context.preferences.ui_styles,
+            addons=bpy.context.preferences.addons,
+        ),
         **{word: getattr(bpy.context, word, None) for word in words},
     )
 
