@@ -337,6 +337,7 @@ def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
     assert len(result.data.edges) > 20 and not result.data.polygons
     seen = evaluated(result)
     assert len(seen.polygons) >= 12 * len(result.data.edges)
+    assert len(seen.edges) == len({key for polygon in seen.polygons for key in polygon.edge_keys})
     assert {material.name for material in seen.materials if material} == {"Medial Axis Radius"}
     assert "ma_color" in seen.attributes and len(seen.attributes["ma_color"].data)
 

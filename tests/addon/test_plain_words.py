@@ -86,5 +86,5 @@ def test_no_verdict_is_cut_off_in_a_sidebar_as_wide_as_it_is_at_first(monkeypatc
 def test_a_computation_says_what_it_does_in_one_word():
     doing = addon("ui.base.plain_words").doing
     done = [doing(stage) for stage in ("Sharp edges", "Crisp places", "Fire", "Wires")]
-    assert done == "Sampling Building Cleaning Drawing".split()
+    assert done == ["Sampling", "Building", "Cleaning", "Drawing"]
     assert doing("1 of 2: Poles") == "1 of 2: Building" and doing("Pass 2: Poles") == "Building"

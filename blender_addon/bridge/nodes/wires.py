@@ -158,7 +158,19 @@ def _new_group() -> bpy.types.NodeTree:
         _joined(tree, *parts),
         named={"Material": radius_material()},
     )
-    return tree.output(_joined(tree, tree.geometry, painted))
+    return tree.output(_joined(tree, _without_hairlines(tree, has_tubes), painted))
+
+
+def _without_hairlines(tree: Tree, has_tubes: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """The axis without the edges for which tubes stand, or which are too many for tubes beside sheets:
+    newer Blenders draw them black."""
+    size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry).node.outputs
+    sheets = tree.compare("GREATER_THAN", size["Face Count"], 0.5)
+    alone = tree.logic("NOT", tree.node("GeometryNodeInputMeshEdgeNeighbors"))
+    gone = tree.logic("AND", alone, tree.logic("OR", has_tubes, sheets))
+    return tree.node(
+        "GeometryNodeDeleteGeometry", tree.geometry, gone, domain="EDGE", mode="EDGE_FACE"
+    )
 
 
 def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
