@@ -63,7 +63,9 @@ def draws_buttons(layout, count=1):
 def draw_setting(column, owner, name, **words):
     """A setting in such a column: a label that does not fit beside its value stands in it, or above it."""
     prop = getattr(owner, "properties", owner).bl_rna.properties[name]  # those of an operator
-    if len(prop.name) <= _FITS or prop.type == "BOOLEAN":
+    if len(prop.name) <= _FITS + 4 * (
+        prop.type == "BOOLEAN"
+    ):  # a switch has it in place of a value
         column.prop(owner, name, **words)
     elif prop.type == "ENUM":
         column.label(text=prop.name, text_ctxt=prop.translation_context)
