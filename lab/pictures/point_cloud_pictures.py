@@ -107,10 +107,13 @@ def show(name, points, faces, path):
     empty()
     turn = [math.radians(angle) for angle in SETS[name][1]]
     source = new_object(name, turn, points, [])
-    surface, axis = made(source, "tight_cocone_surface"), made(source, "medial_axis")
+    # Facets of the same two samples are compared, which only the diagram has.
+    mesh = {"mesh": "VORONOI"} if faces else {}
+    surface, axis = made(source, "tight_cocone_surface"), made(source, "medial_axis", **mesh)
     if faces:
         truth = new_object(f"{name} with faces", turn, points, faces)
-        mark_differences(axis, made(truth, "medial_axis", sides="SURFACE"))
+        by_faces = {"sides": "SURFACE", "sampling": "VERTICES", **mesh}
+        mark_differences(axis, made(truth, "medial_axis", **by_faces))
         truth.hide_render = True  # its axis stays: the facets that are missing
     picture(surface, axis, path)
 
