@@ -99,6 +99,14 @@ def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words
     assert ["object.medial_axis_hollow"] in found.rows
 
 
+def test_rig_tells_of_the_skeleton_that_was_made():
+    select(suzanne(levels=0))
+    bpy.ops.object.medial_axis_skeleton()
+    panel = addon("ui.skeleton.skeleton_panel").VIEW3D_PT_medial_axis_skeleton
+    panel.draw(SimpleNamespace(layout=(found := Layout())), seen())
+    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found.rows)
+
+
 def test_hollow_without_a_wall_takes_a_share_of_the_diagonal():
     bpy.ops.mesh.primitive_cube_add(size=2)
     assert bpy.ops.object.medial_axis_hollow() == {"FINISHED"}

@@ -4,7 +4,6 @@
 import bpy
 
 from ...bridge.mesh import stored
-from ...bridge.skeleton import skeleton_object
 from ...bridge.skeleton.armature_object import armature_of, is_armature
 from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
 from ..base.plain_words import draw_told, warned
@@ -49,10 +48,8 @@ def _shown(context):
 def _draw_figures(context, layout, thing):
     figures = {"Bones": thing.get(stored.BONES, 0)}
     if is_skeleton(thing):
-        names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
-        figures = {
-            label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
-        }
+        names = {"Ends": stored.ENDS, "Branches": stored.BRANCHES, "Loops": stored.LOOPS}
+        figures = {label: thing.get(name, 0) for label, name in names.items()}
     layout.label(text=thing.name, icon="DOT", translate=False)
     draw_figures(layout, {label: f"{number:,}" for label, number in figures.items()})
     for warning in thing.get(stored.WARNINGS, "").splitlines():
