@@ -603,25 +603,3 @@ def test_a_moved_curve_takes_its_axis_along():
     before = world_box(made)
     source.location.x += 5.0
     assert np.allclose(world_box(made) - before, (5, 0, 0), atol=1e-4)
-
-
-def test_under_the_curve_is_the_way_to_one_of_few_branches():
-    panel, shown = bpy.context.scene.medial_axis, []
-
-    class Layout:
-        def row(self, **_):
-            return self
-
-        def prop(self, _owner, name, **_):
-            shown.append(name)
-
-        def operator(self, name, **_):
-            shown.append(name)
-            return bpy.context.scene.medial_axis_skeleton
-
-    for form, expected in (("CURVE", True), ("CLEAN", False)):
-        shown.clear()
-        panel.form = form
-        addon("ui.panels.form_panel").draw_form(bpy.context, Layout(), panel)
-        assert shown[0] == "form" and ("object.medial_axis_skeleton" in shown) == expected
-    panel.property_unset("form")

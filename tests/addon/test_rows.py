@@ -105,6 +105,16 @@ def test_rig_tells_of_the_skeleton_that_was_made():
     panel = addon("ui.skeleton.skeleton_panel").VIEW3D_PT_medial_axis_skeleton
     panel.draw(SimpleNamespace(layout=(found := Layout())), seen())
     assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found.rows)
+    bpy.context.object["ma_frame"] = 1  # as one of a sequence
+    assert rows(seen())
+    bpy.ops.object.medial_axis_armature()
+    assert bpy.context.object.type == "ARMATURE" and rows(seen())
+
+
+def test_no_two_stored_properties_have_one_name():
+    names = [n for n in vars(addon("bridge.mesh.stored")).values() if isinstance(n, str)]
+    ours = [name for name in names if name.startswith("ma_")]
+    assert len(ours) == len(set(ours)) > 60
 
 
 def test_hollow_without_a_wall_takes_a_share_of_the_diagonal():

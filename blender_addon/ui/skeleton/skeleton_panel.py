@@ -17,13 +17,8 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
 
     def draw(self, context):
         column = settings_column(self.layout)
-        for name in (
-            "detail",
-            "per_limb",
-            "mirror",
-            "fill",
-            "bind",
-        ):  # the others are in the panels of the operators
+        # The others are in the panels of the operators.
+        for name in ("detail", "per_limb", "mirror", "fill", "bind"):
             draw_setting(column, context.scene.medial_axis_skeleton, name)
         converts = bpy.ops.object.medial_axis_to_curve.poll()
         if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
