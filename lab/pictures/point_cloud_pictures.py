@@ -172,7 +172,8 @@ def generators(axis):
     values = np.empty((len(found), 2 // len(found) * len(axis.data.polygons)), np.int32)
     for data, row in zip(found, values):
         data.foreach_get("value", row)
-    a, b = values if len(found) == 2 else values.reshape(-1, 2).T
+    pairs = values if len(found) == 2 else values.reshape(-1, 2).T
+    a, b = np.sort(pairs, axis=0)  # a facet that was turned round has them the other way
     return a.astype(np.int64) << 32 | b
 
 

@@ -40,7 +40,7 @@ class Layout:
 def seen(is_colour=False, width=400):
     """A viewport with a sidebar, as panels ask for it."""
     shading = SimpleNamespace(type="SOLID", color_type="VERTEX" if is_colour else "MATERIAL")
-    words = ["scene", "object", "active_object", "view_layer", "selected_objects"]
+    words = ["scene", "object", "view_layer", "selected_objects"]
     return SimpleNamespace(
         space_data=SimpleNamespace(shading=shading, as_pointer=lambda: 0),
         region=SimpleNamespace(width=width, as_pointer=lambda: 0),

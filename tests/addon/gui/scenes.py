@@ -760,6 +760,8 @@ def scene_tutorial():
     yield from look_after(0.7, "03")
     source.hide_set(True)
     yield from look_after(0.7, "04")
+    with in_viewport():  # where active_object is None now, and object is not
+        assert bpy.ops.export_scene.medial_axis.poll() and bpy.ops.object.medial_axis_rebuild.poll()
     source.hide_set(False)
     select(source)
     panel.simplify = 4.0
