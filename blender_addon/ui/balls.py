@@ -74,7 +74,7 @@ class VIEW3D_PT_medial_axis_balls(Closed, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        active = context.active_object
+        active = context.object
         return find_axis(active) is not None or _shown(context) is not None
 
     def draw(self, context):
@@ -92,7 +92,7 @@ class VIEW3D_PT_medial_axis_balls(Closed, bpy.types.Panel):
 
 def _shown(context):
     """The balls that the panel describes: the active object, or the balls of it or of its source."""
-    active = context.active_object
+    active = context.object
     if active is None:
         return None
     if is_balls(active):

@@ -19,7 +19,7 @@ _INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
 
 def _axis(context):
     """The axis that the active object is, has, or was rebuilt of."""
-    return find_axis(unrebuilt(context.active_object))
+    return find_axis(unrebuilt(context.object))
 
 
 class OBJECT_OT_medial_axis_rebuild(Alone, Needing, Telling, bpy.types.Operator):

@@ -42,7 +42,7 @@ class _Reduced:
 
 def _axis(context):
     """The whole axis that the active object is, has, or was made of."""
-    axis = find_axis(unrebuilt(context.active_object))
+    axis = find_axis(unrebuilt(context.object))
     return find_axis(source_of(axis)) if axis is not None and is_reduced(axis) else axis
 
 

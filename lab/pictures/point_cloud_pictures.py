@@ -107,10 +107,13 @@ def show(name, points, faces, path):
     empty()
     turn = [math.radians(angle) for angle in SETS[name][1]]
     source = new_object(name, turn, points, [])
-    surface, axis = made(source, "tight_cocone_surface"), made(source, "medial_axis")
+    # Facets of the same two samples are compared, which only the diagram has.
+    mesh = {"mesh": "VORONOI"} if faces else {}
+    surface, axis = made(source, "tight_cocone_surface"), made(source, "medial_axis", **mesh)
     if faces:
         truth = new_object(f"{name} with faces", turn, points, faces)
-        mark_differences(axis, made(truth, "medial_axis", sides="SURFACE"))
+        by_faces = {"sides": "SURFACE", "sampling": "VERTICES", **mesh}
+        mark_differences(axis, made(truth, "medial_axis", **by_faces))
         truth.hide_render = True  # its axis stays: the facets that are missing
     picture(surface, axis, path)
 
@@ -169,7 +172,8 @@ def generators(axis):
     values = np.empty((len(found), 2 // len(found) * len(axis.data.polygons)), np.int32)
     for data, row in zip(found, values):
         data.foreach_get("value", row)
-    a, b = values if len(found) == 2 else values.reshape(-1, 2).T
+    pairs = values if len(found) == 2 else values.reshape(-1, 2).T
+    a, b = np.sort(pairs, axis=0)  # a facet that was turned round has them the other way
     return a.astype(np.int64) << 32 | b
 
 

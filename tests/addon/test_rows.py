@@ -37,21 +37,19 @@ class Layout:
     label = prop = operator = menu = _item
 
 
-def seen(is_colour=False):
-    """A viewport whose sidebar is wide, as panels ask for it."""
+def seen(is_colour=False, width=400):
+    """A viewport with a sidebar, as panels ask for it."""
     shading = SimpleNamespace(type="SOLID", color_type="VERTEX" if is_colour else "MATERIAL")
-    words = (
-        "scene",
-        "object",
-        "active_object",
-        "view_layer",
-        "selected_objects",
-        "objects_in_mode",
-    )
+    words = ["scene", "object", "view_layer", "selected_objects"]
     return SimpleNamespace(
         space_data=SimpleNamespace(shading=shading, as_pointer=lambda: 0),
-        region=SimpleNamespace(width=400, as_pointer=lambda: 0),
-        preferences=bpy.context.preferences,
+        region=SimpleNamespace(width=width, as_pointer=lambda: 0),
+        preferences=SimpleNamespace(
+            system=SimpleNamespace(ui_scale=1.0),  # without a window it is 0
+            ui_styles=bpy.context.preferences.ui_styles,
+            addons=bpy.context.preferences.addons,
+        ),
+        objects_in_mode=None,
         **{word: getattr(bpy.context, word, None) for word in words},
     )
 
@@ -92,13 +90,31 @@ def test_few_rows_before_the_first_click_and_after_it(newcomer):
     assert len(rows(seen(is_colour=True))) <= 18
 
 
-def test_hollow_and_unsolidify_need_no_measurement():
+def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words():
     select(suzanne(levels=0))
     found = Layout()
     panel = addon("ui.thickness.thickness_panel").VIEW3D_PT_medial_axis_thickness
     panel.draw(SimpleNamespace(layout=found), seen())
-    drawn = {text for row in found.rows for text in row}
-    assert {"object.medial_axis_unsolidify", "object.medial_axis_hollow"} <= drawn
+    assert ["object.medial_axis_unsolidify"] in found.rows
+    assert ["object.medial_axis_hollow"] in found.rows
+
+
+def test_rig_tells_of_the_skeleton_that_was_made():
+    select(suzanne(levels=0))
+    bpy.ops.object.medial_axis_skeleton()
+    panel = addon("ui.skeleton.skeleton_panel").VIEW3D_PT_medial_axis_skeleton
+    panel.draw(SimpleNamespace(layout=(found := Layout())), seen())
+    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found.rows)
+    bpy.context.object["ma_frame"] = 1  # as one of a sequence
+    assert rows(seen())
+    bpy.ops.object.medial_axis_armature()
+    assert bpy.context.object.type == "ARMATURE" and rows(seen())
+
+
+def test_no_two_stored_properties_have_one_name():
+    names = [n for n in vars(addon("bridge.mesh.stored")).values() if isinstance(n, str)]
+    ours = [name for name in names if name.startswith("ma_")]
+    assert len(ours) == len(set(ours)) > 60
 
 
 def test_hollow_without_a_wall_takes_a_share_of_the_diagonal():

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from scene import MODULE, addon, ellipsoid, link, select
+from test_rows import seen
 
 
 def entries():
@@ -151,10 +152,7 @@ def test_panels_keep_english_and_show_german(german):
             lines.append(text)
 
     layout = SimpleNamespace(column=lambda align: Column())
-    context = SimpleNamespace(
-        region=SimpleNamespace(width=2000),
-        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
-    )
+    context = seen(width=2000)
     addon("ui.base.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
     assert lines == ["Innen nach Oberfläche: die Flächen sind geschlossen"]
 

@@ -60,9 +60,7 @@ RANGES = {
 }
 REMOVALS = "ma_removals"  # how many loops and branches of a curve Detail can leave out
 SIMPLIFY_GAP = "ma_simplify_gap"  # a length, in percent of the diagonal
-STRUCTURE = (
-    "ma_structure"  # the fields of `Structure` that are about parts, curves and nodes, as JSON
-)
+STRUCTURE = "ma_structure"  # what `Structure` has of parts, curves and nodes, as JSON
 STRUCTURE_COUNTS = "ma_structure_counts"  # sheets, seams, rims, creases, junctions, corners
 WIRES = "ma_wires"  # how many edges without a face and single points a result has
 LONE_POINTS = "ma_lone_points_hidden"  # how many single points of a result are not shown
@@ -82,7 +80,7 @@ MIRRORED = "ma_mirrored"
 LIMB_LINE = "ma_line"  # on the curve of a limb: a pointer to the source
 BONES = "ma_bones"
 MADE_BONE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
-RIG_FRAME = "ma_frame"  # the frame of the rig that the armature has now
+RIG_FRAME = "ma_rig_frame"  # the frame of the rig that the armature has now
 BOUND_GROUPS = "ma_groups"  # the vertex groups that were made here, a name per line
 BONE_GROUP = "ma_group"  # on a bone: its group there; Blender renames groups with their bones
 BOUND_WEIGHTS = "ma_weights"  # a hash of the weights in them

@@ -3,8 +3,9 @@
 
 They are made by a modifier of Geometry Nodes, so the mesh itself, its counts and what is exported of it stay the axis.
 No tube is thicker than a fifth of the ball of the axis there, and tubes end in balls of their own width. Single points
-are shown where the look asks for them, or where the axis is nothing else; of a scan they are noise. The more of them
-there are, the fewer faces each has: Blender makes them anew in its main thread after every change.
+are that fifth, so that the axis of a sphere is seen; they are shown where the look asks for them, or where the axis is
+nothing else; of a scan they are noise. The more of them there are, the fewer faces each has: Blender makes them anew in
+its main thread after every change.
 """
 
 from __future__ import annotations
@@ -24,10 +25,9 @@ from .tree import Tree
 
 NAME = "Medial Axis Wires"
 _WIDTH, _SIDES, _SUBDIVISIONS, _POINTS = "Width", "Sides", "Subdivisions", "Points"
-_SHARE = 0.2  # of the ball of the axis: the most that a tube may be thick
+_SHARE = 0.2  # of the ball of the axis: a single point, and the most that a tube may be thick
 _MOST_SIDES = 12
 _THIN = 0.004  # radius of a tube, as a share of the size of the axis
-_THICKER = 2.0  # balls than tubes
 _MOST_FACES = 200_000  # of all tubes, and of all balls
 _FACES_OF_BALLS = {3: 320, 2: 80, 1: 20}  # by Subdivisions
 
@@ -138,8 +138,8 @@ def _new_group() -> bpy.types.NodeTree:
     )
     points = tree.input("NodeSocketBool", _POINTS, False, "Single points are shown as balls, too")
     radius = tree.attribute(RADIUS.name)
-    thin = tree.math("MINIMUM", width, tree.math("MULTIPLY", radius, _SHARE))
-    thick = tree.math("MINIMUM", tree.math("MULTIPLY", width, _THICKER), radius)
+    thick = tree.math("MULTIPLY", radius, _SHARE)
+    thin = tree.math("MINIMUM", width, thick)
     neighbours = tree.node("GeometryNodeInputMeshVertexNeighbors").node.outputs
     edges, faces = neighbours["Vertex Count"], neighbours["Face Count"]
     bare = tree.compare("LESS_THAN", faces, 0.5)
@@ -158,7 +158,19 @@ def _new_group() -> bpy.types.NodeTree:
         _joined(tree, *parts),
         named={"Material": radius_material()},
     )
-    return tree.output(_joined(tree, tree.geometry, painted))
+    return tree.output(_joined(tree, _without_hairlines(tree, has_tubes), painted))
+
+
+def _without_hairlines(tree: Tree, has_tubes: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """The axis without the edges for which tubes stand, or which are too many for tubes beside sheets:
+    newer Blenders draw them black."""
+    size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry).node.outputs
+    sheets = tree.compare("GREATER_THAN", size["Face Count"], 0.5)
+    alone = tree.logic("NOT", tree.node("GeometryNodeInputMeshEdgeNeighbors"))
+    gone = tree.logic("AND", alone, tree.logic("OR", has_tubes, sheets))
+    return tree.node(
+        "GeometryNodeDeleteGeometry", tree.geometry, gone, domain="EDGE", mode="EDGE_FACE"
+    )
 
 
 def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:

@@ -290,8 +290,9 @@ class VIEW3D_PT_medial_axis_sequence(InSettings, bpy.types.Panel):
         column.prop(scene, "medial_axis_sequence_of", text="")
         column.prop(scene, "medial_axis_folder")
         row = column.row(align=True)
+        row.label(text="Frames")
         for name in ("frame_start", "frame_end", "frame_step"):
-            row.prop(scene, name, text=name.partition("_")[2].title())
+            row.prop(scene, name, text="")
         column.prop(scene, "medial_axis_fast")
         copy_sequence(
             scene, column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")

@@ -23,7 +23,7 @@ class OBJECT_OT_medial_axis_to_curve(Needing, Telling, bpy.types.Operator):
 
     @classmethod
     def find(cls, context):
-        axis = find_axis(context.active_object)
+        axis = find_axis(context.object)
         return axis if axis is not None and axis.get(stored.WIRES, 0) else None
 
     def run(self, context):

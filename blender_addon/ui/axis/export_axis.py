@@ -106,7 +106,7 @@ class EXPORT_SCENE_OT_medial_axis(Needing, Telling, ExportFile, bpy.types.Operat
 
 def _thing(context: bpy.types.Context) -> bpy.types.Object | None:
     """The object that is written: the active object's medial axis, or balls if that is the active object."""
-    active = context.active_object
+    active = context.object
     return active if not is_gone(active) and is_balls(active) else find_axis(active)
 
 

@@ -31,8 +31,8 @@ def draw_result(context, layout, result):
             again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
             copy_settings(context.scene.medial_axis, again)
     else:
-        _draw_verdict(layout, result)
-        _draw_pieces(layout, result)
+        _draw_verdict(context, layout, result)
+        _draw_pieces(context, layout, result)
     if hidden := result.get(stored.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
     if crumbs := result.get(stored.CRUMBS, 0):
@@ -43,7 +43,7 @@ def draw_result(context, layout, result):
         draw_wrapped(context, layout, text, "INFO")
     if not _draw_legend(context, layout, result):
         radii = _range_text(context, *axis_object.radius_range(result))
-        draw_figures(layout, {"Radius": radii}, 0.3)
+        draw_figures(layout, {"Radius": radii}, 0.25)
 
 
 def draw_sequence(context, layout, frame):
@@ -137,24 +137,24 @@ def draw_surface(context, layout, surface):
         draw_told(context, layout, warning, "ERROR", warned)
 
 
-def _draw_verdict(layout, result):
+def _draw_verdict(context, layout, result):
     """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
     name = result.get(stored.LIGHT)
     if name not in WHY:  # of an older version
         return
-    row = layout.split(factor=0.88)  # in a row, half of it would be the question mark's
-    row.label(text=say(in_short(result[stored.VERDICT])), icon_value=light(name), translate=False)
+    row = layout.row(align=True)
+    words = in_short(result[stored.VERDICT])
+    draw_wrapped(context, row, words, icon_value=light(name), beside=20)
     if manual.has(WHY[name].partition("#")[0]):
         row.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
-def _draw_pieces(layout, result):
+def _draw_pieces(context, layout, result):
     """Draws how many pieces, loops and cavities there are, with a tick where the faces have as many."""
     betti = result.get(stored.BETTI, (result.get(stored.PIECES, 0), 0, 0))
     agrees = result.get(stored.TOPOLOGY, "").endswith(", as the solid")
     icon = "CHECKMARK" if agrees else "MESH_DATA"
-    words = ", ".join(map(say, betti_in_short(betti)))
-    layout.label(text=words, icon=icon, translate=False)
+    draw_wrapped(context, layout, ", ".join(map(say, betti_in_short(betti))), icon)
 
 
 def why_outdated(context, result):

@@ -25,10 +25,10 @@ class OBJECT_OT_medial_axis_nodes(Needing, bpy.types.Operator):
 
     @classmethod
     def find(cls, context):
-        return find_axis(context.active_object)
+        return find_axis(context.object)
 
     def execute(self, context):
-        axis = find_axis(context.active_object)
+        axis = find_axis(context.object)
         if self.group == "BALLS":
             modifier = add_few_balls(axis)
             if input_of(modifier, "Merge") > 0.0:

@@ -11,10 +11,10 @@ from ...bridge.mesh.attributes import PART, has_attribute
 from ...bridge.objects.output_object import is_gone
 from ...core.settings import Form
 from ..base.plain_words import Needing, Telling
-from ..base.tab import InDetails, settings_column
+from ..base.tab import InDetails, draw_setting, settings_column
 from ..base.translation import say
 from ..base.view_place import edit_faces
-from ..base.wrapped_text import draw_figures
+from ..base.wrapped_text import draw_figures, draw_wrapped
 from ..settings.properties import shown_result
 
 _NONE = "Select a medial axis of the form Clean, or an object whose medial axis was computed before"
@@ -102,9 +102,9 @@ class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
         if _axis(context) is None:
             is_clean = shown_result(context)[stored.of_option("form")] == Form.CLEAN.name
             text = "The axis has no sheets" if is_clean else "Only clean forms have parts"
-            layout.label(text=text, icon="INFO")
+            draw_wrapped(context, layout, text, "INFO")
             return
-        settings_column(layout).prop(context.scene.medial_axis, "by_part")
+        draw_setting(settings_column(layout), context.scene.medial_axis, "by_part")
         layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
         layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
         counts = counts_on(_axis(context)).items()

@@ -23,9 +23,9 @@ _icons = None
 
 def draw_legend(layout, start, end, turned=False):
     """The scale of colours between two texts, from blue to yellow, or turned round."""
-    ends = layout.split(factor=0.33)
+    ends = layout.split(factor=0.38)  # each text has room for "0.872 mm"
     ends.label(text=start, translate=False)
-    rest = ends.split(factor=0.56)
+    rest = ends.split(factor=0.4)
     scale = rest.row(align=True)
     for step in range(_STEPS)[:: -1 if turned else 1]:
         scale.label(text="", icon_value=_icon(f"step {step}", step))

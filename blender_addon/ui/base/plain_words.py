@@ -15,13 +15,7 @@ from ...core.errors import MedialAxisError
 from .translation import say
 from .wrapped_text import draw_wrapped
 
-_KINDS = {
-    "MESH": "mesh",
-    "FONT": "text",
-    "CURVE": "curve",
-    "SURFACE": "surface",
-    "META": "metaball",
-}
+_KINDS = {"FONT": "text", "META": "metaball"}  # the others are called as Blender calls them
 _DEPTH = {"FONT": "give it Extrude", "CURVE": "give it Bevel", "SURFACE": "give it Solidify"}
 # The line for a sentence with these words; {kind} is what the object is, and {depth} what makes it a solid.
 _LINES = {
@@ -58,7 +52,7 @@ def in_one_line(sentence, kind="MESH"):
     for part, line in _LINES.items():
         if part in sentence:
             depth = _DEPTH.get(kind, "add Solidify")
-            return line.format(kind=_KINDS.get(kind, "object"), depth=depth) + "."
+            return line.format(kind=_KINDS.get(kind, kind.lower()), depth=depth) + "."
     if found := _SENTENCE.fullmatch(sentence):
         wanted, remedy = found.groups()
         return _capital(_first(remedy)) if remedy else f"This needs {wanted}."
@@ -149,7 +143,4 @@ class WM_OT_medial_axis_more(bpy.types.Operator):
             column.label(text=line, translate=False)
 
 
-_WIDTH, _PIXELS = (
-    65,
-    450,
-)  # of the window that the question mark opens, in letters and on the screen
+_WIDTH, _PIXELS = 65, 450  # letters and pixels of the window that the question mark opens

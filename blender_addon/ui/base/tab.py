@@ -7,7 +7,8 @@ MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
 RESULT = "VIEW3D_PT_medial_axis_result"
 DETAILS = "VIEW3D_PT_medial_axis_details"
 SETTINGS = "VIEW3D_PT_medial_axis_settings"
-_FITS = 10  # letters of a label beside its value, in a sidebar as wide as it is at first
+# Letters of a label beside its value or its box, in a sidebar as wide as it is at first.
+_FITS, _FITS_A_SWITCH = 10, 14
 
 
 class Tab:
@@ -63,7 +64,7 @@ def draws_buttons(layout, count=1):
 def draw_setting(column, owner, name, **words):
     """A setting in such a column: a label that does not fit beside its value stands in it, or above it."""
     prop = getattr(owner, "properties", owner).bl_rna.properties[name]  # those of an operator
-    if len(prop.name) <= _FITS or prop.type == "BOOLEAN":
+    if len(prop.name) <= (_FITS_A_SWITCH if prop.type == "BOOLEAN" else _FITS):
         column.prop(owner, name, **words)
     elif prop.type == "ENUM":
         column.label(text=prop.name, text_ctxt=prop.translation_context)

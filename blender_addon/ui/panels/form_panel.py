@@ -4,20 +4,15 @@
 from ...bridge.axis.slider_ranges import gap_on
 from ...core.settings import Form, applies_to_form
 from ..base.ranged_sliders import draw_slider
-from ..base.tab import draws_buttons
 from ..settings.properties import settings_from, shown_result
-from ..skeleton.skeleton_operators import copy_all
 
 _SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
 
 
 def draw_form(context, layout, panel):
-    """Form, and the slider that matters most for it; under the curve also the way to one of few branches."""
+    """Form, and the slider that matters most for it."""
     layout.prop(panel, "form")
     _draw_sliders(context, layout, _that_apply(panel)[:1])
-    if panel.form == Form.CURVE.name and draws_buttons(layout):
-        button = layout.operator("object.medial_axis_skeleton", icon="OUTLINER_OB_CURVE")
-        copy_all(context, button)
 
 
 def draw_more_of_form(context, layout, panel):

@@ -60,7 +60,7 @@ class VIEW3D_PT_medial_axis_method(InSettings, bpy.types.Panel):
             row.active = name != "mesh" or applies_to_form(name, Form[settings.form])
             draw_setting(row.column(), settings, name)
         draw_sampling(column, settings, settings_from(settings).options_of_faces, AS_IN_PAPER)
-        column.prop(settings, "each_part")
+        draw_setting(column, settings, "each_part")
 
 
 class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):

@@ -181,9 +181,10 @@ def shown_report(context):
 
 
 def shown_frame(context):
-    """The active object, where it is a frame of a sequence."""
+    """The active object, where it is a frame of a sequence of medial axes."""
     active = context.object
-    return active if active is not None and stored.SEQUENCE_FRAME in active else None
+    marks = {stored.SEQUENCE_FRAME, stored.RADIUS_MIN}
+    return active if active is not None and marks <= set(active.keys()) else None
 
 
 def shown_thing(context):

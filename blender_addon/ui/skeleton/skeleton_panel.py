@@ -4,7 +4,6 @@
 import bpy
 
 from ...bridge.mesh import stored
-from ...bridge.skeleton import skeleton_object
 from ...bridge.skeleton.armature_object import armature_of, is_armature
 from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
 from ..base.plain_words import draw_told, warned
@@ -18,13 +17,8 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
 
     def draw(self, context):
         column = settings_column(self.layout)
-        for name in (
-            "detail",
-            "per_limb",
-            "mirror",
-            "fill",
-            "bind",
-        ):  # the others are in the panels of the operators
+        # The others are in the panels of the operators.
+        for name in ("detail", "per_limb", "mirror", "fill", "bind"):
             draw_setting(column, context.scene.medial_axis_skeleton, name)
         converts = bpy.ops.object.medial_axis_to_curve.poll()
         if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
@@ -49,10 +43,8 @@ def _shown(context):
 def _draw_figures(context, layout, thing):
     figures = {"Bones": thing.get(stored.BONES, 0)}
     if is_skeleton(thing):
-        names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
-        figures = {
-            label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
-        }
+        names = {"Ends": stored.ENDS, "Branches": stored.BRANCHES, "Loops": stored.LOOPS}
+        figures = {label: thing.get(name, 0) for label, name in names.items()}
     layout.label(text=thing.name, icon="DOT", translate=False)
     draw_figures(layout, {label: f"{number:,}" for label, number in figures.items()})
     for warning in thing.get(stored.WARNINGS, "").splitlines():

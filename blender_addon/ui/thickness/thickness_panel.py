@@ -58,12 +58,12 @@ def _draw_made(context, layout):
     """The buttons of what is made of walls, measured or not."""
     if not draws_buttons(layout):
         return
-    row = layout.row(align=True)
-    button = row.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
+    column = layout.column(align=True)
+    button = column.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
     copy_settings(context.scene.medial_axis, button)
     limit = context.scene.medial_axis_thickness.limit
-    row.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE").wall = limit
-    row.operator("object.medial_axis_solidify", icon="MOD_SOLIDIFY").thickness = limit
+    column.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE").wall = limit
+    column.operator("object.medial_axis_solidify", icon="MOD_SOLIDIFY").thickness = limit
 
 
 def _draw_found(context, layout, carrier):

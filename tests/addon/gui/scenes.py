@@ -48,9 +48,9 @@ SKELETON, THICKNESS, SETTINGS = (150, 208), (150, 234), (150, 260)
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
 CLEAN_UP, METHOD = (150, 286), (150, 338)  # in Settings before there is a result
 SAMPLING = (150, 391)  # in Settings of a result
-EXTRACT_SKELETON, MAKE_ARMATURE = (102, 334), (102, 360)
-MEASURE_THICKNESS, THICKEN, DIVIDE = (102, 382), (102, 521), (102, 542)
-UNSOLIDIFY, HOLLOW = (150, 405), (55, 405)
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 360), (102, 386)
+MEASURE_THICKNESS, THICKEN, DIVIDE = (102, 382), (102, 563), (102, 584)
+UNSOLIDIFY, HOLLOW = (102, 405), (102, 426)
 DRAIN = (255, 675)  # on the screen, in Adjust Last Operation
 REBUILD_SOLID, OTHERS = (102, 316), (49, 316)
 FORM, SKELETON_END = (200, 95), (30, 322)
@@ -760,6 +760,8 @@ def scene_tutorial():
     yield from look_after(0.7, "03")
     source.hide_set(True)
     yield from look_after(0.7, "04")
+    with in_viewport():  # where active_object is None now, and object is not
+        assert bpy.ops.export_scene.medial_axis.poll() and bpy.ops.object.medial_axis_rebuild.poll()
     source.hide_set(False)
     select(source)
     panel.simplify = 4.0
