@@ -143,8 +143,8 @@ std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
 
 Touch EvenPlaces::ball_of_walls(int32_t v) const {
   const auto smooth = smooth_ball_at(v, e_.position[v], nearest_walls(v));
-  const bool is_found = smooth && smooth->radius > 0;
-  if (is_found && (!finishes_ || is_empty(samples_, *smooth, hole_at(v)))) return *smooth;
+  if (smooth && !finishes_) return *smooth;  // rims beyond their end go back to it
+  if (smooth && smooth->radius > 0 && is_empty(samples_, *smooth, hole_at(v))) return *smooth;
   const Walls walls = walls_of(v);
   if (walls.count < 2) return {};
   const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
