@@ -20,11 +20,8 @@ Attributes = dict[str, str]
 _MACROS = {"include", "frame", "replicate", "attach", "composite"}
 # The attributes that may name a geom, with those that tell whether they do.
 _NAMING = {"geom": "", "geom1": "", "geom2": "", "objname": "objtype", "refname": "reftype"}
-_UNSET = {
-    "pos": "0 0 0",
-    "mesh": "",
-    "fromto": "",
-}  # written over what a class tells of places and shapes
+# Written over what a class tells of places and shapes.
+_UNSET = {"pos": "0 0 0", "mesh": "", "fromto": ""}
 _FILTER = ("contype", "conaffinity")
 
 

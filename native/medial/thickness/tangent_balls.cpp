@@ -8,6 +8,8 @@
 namespace medial {
 namespace {
 
+constexpr double kFacing = 2;  // distances of samples on the facing wall; chosen: thickness
+
 // This is the width of the ball that is tangent at one sample and touches the other one.
 struct Width {
   double diameter = HUGE_VAL;
@@ -45,7 +47,7 @@ std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tan
   const auto at = [&](int32_t p, int32_t q) {
     if (tangents.edge[p]) return Width{};
     return width(points[p], points[q], tangents.normals[p], tangents.normals[q], tangents.edge[q],
-                 tangents.reflex[q], std::min(spacing[q], 2 * spacing[p]), inward);
+                 tangents.reflex[q], std::min(spacing[q], kFacing * spacing[p]), inward);
   };
   parallel_for(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t i) {
     const auto& [p, q] = edges.ends[edge_ids[i]];
