@@ -40,8 +40,10 @@ def page(whole=True):
     """The rows of the preferences; with `whole` those of the part that is closed at first, too."""
     layout = Layout()
     region = SimpleNamespace(width=10_000)
-    system = SimpleNamespace(ui_scale=1.0)
-    context = SimpleNamespace(region=region, preferences=SimpleNamespace(system=system))
+    region = SimpleNamespace(width=10_000)
+    system, styles = SimpleNamespace(ui_scale=1.0), bpy.context.preferences.ui_styles
+    preferences = SimpleNamespace(system=system, ui_styles=styles)
+    context = SimpleNamespace(region=region, preferences=preferences)
     draw = addon("ui.settings.preferences").MedialAxisPreferences.draw
     owner = bpy.context.preferences.addons[MODULE].preferences
     shown = SimpleNamespace(

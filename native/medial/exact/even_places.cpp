@@ -354,9 +354,13 @@ bool EvenPlaces::slide() {
       },
       kFew);
   even_out(rims, way, step);
+  went_back_.resize(e_.position.size(), 0);
   double most = 0;
   for (const int32_t v : rims) {
-    const double limit = kMostSlide * e_.target[v], now = std::clamp(step[v], -limit, limit);
+    const double limit = kMostSlide * e_.target[v];
+    const double back = std::clamp(hole_at(v) - went_back_[v], 0.0, limit);
+    const double now = std::clamp(step[v], -back, limit);
+    went_back_[v] -= std::min(now, 0.0);
     most = std::max(most, std::abs(now) / e_.target[v]);
     const Vec3 place = e_.position[v] + now * outward_at(v);
     if (now != 0 && keeps_sides(e_, v, place)) move(e_, v, place);

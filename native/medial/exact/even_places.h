@@ -64,6 +64,7 @@ class EvenPlaces {
   std::vector<int32_t> along_wire_;  // (v) the other end of a wire that ends at a sheet; or -1
   std::vector<Placing> placing_;
   std::vector<double> radius_;
+  std::vector<double> went_back_;  // per vertex: how far slides moved its rim back
   std::vector<Touch> found_;
   bool finishes_ = false;
 };
