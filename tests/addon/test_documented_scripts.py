@@ -3,10 +3,11 @@
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
-from scene import MODULE, program
+from scene import MODULE, compute, program, torus
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "user_guide.md")
@@ -49,3 +50,11 @@ def test_script(tmp_path, word):
         assert number == pytest.approx(count, rel=0.05) if count else number > 0, number
     if word.endswith(".ma"):
         assert (tmp_path / word).stat().st_size > 0
+
+
+def test_the_demo_prints_a_row_of_what_was_computed(monkeypatch):
+    monkeypatch.setattr(sys, "path", [*sys.path, str(ROOT / "tests" / "demo")])
+    from blender_demo import figures
+
+    row = figures(MODULE, compute(torus(), form="CLEAN"))
+    assert row["model"] == "Torus" and row["components"] == 1 and float(row["Delaunay s"]) >= 0.0

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import MODULE, addon, contents, reports
+from test_rows import seen
 
 CHECKS = 8
 
@@ -39,18 +40,13 @@ class Layout:
 def page(whole=True):
     """The rows of the preferences; with `whole` those of the part that is closed at first, too."""
     layout = Layout()
-    region = SimpleNamespace(width=10_000)
-    region = SimpleNamespace(width=10_000)
-    system, styles = SimpleNamespace(ui_scale=1.0), bpy.context.preferences.ui_styles
-    preferences = SimpleNamespace(system=system, ui_styles=styles)
-    context = SimpleNamespace(region=region, preferences=preferences)
     draw = addon("ui.settings.preferences").MedialAxisPreferences.draw
     owner = bpy.context.preferences.addons[MODULE].preferences
     shown = SimpleNamespace(
         layout=layout, bl_rna=owner.bl_rna, **dict.fromkeys(owner.bl_rna.properties.keys(), 0)
     )
     shown.show_installed = whole
-    draw(shown, context)
+    draw(shown, seen(width=10_000))
     return layout.drawn
 
 

@@ -218,7 +218,7 @@ def figures(package, result):
     """One row of the table: what was computed, and how long it took."""
     results = importlib.import_module(package + ".bridge.axis.axis_object")
     analysis = importlib.import_module(package + ".core.axis.compute")
-    key = result[results.ANALYSIS]
+    key = result[importlib.import_module(package + ".bridge.mesh.stored").ANALYSIS]
     start = time.perf_counter()
     analysis.refilter(key, results.settings_of(result))
     seconds = dict(analysis.CACHE.get(key).analysis.timings)
