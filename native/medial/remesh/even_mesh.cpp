@@ -136,6 +136,13 @@ bool can_collapse(const EvenMesh& even, int32_t from, int32_t to) {
          MovedStar(even, from, even.position[to], to).is_sound();
 }
 
+void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved) {
+  moved.clear();
+  even.mesh.for_triangles(from, [&](int32_t t) { moved.push_back(t); });
+  even.mesh.collapse(from, to);
+  for (const int32_t t : moved) settle_normal(even, t);
+}
+
 void settle_normal(EvenMesh& even, int32_t triangle) {
   if (even.mesh.is_gone(triangle)) return;
   const Plane plane = plane_of(places_of(even, even.mesh.triangle(triangle)));

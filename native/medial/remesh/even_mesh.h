@@ -37,6 +37,8 @@ bool turns_none(const EvenMesh& even, int32_t from, int32_t to);
 // Returns whether a vertex can be collapsed into another one: the complex allows it, triangles keep
 // their side, and no sheet folds.
 bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);
+// Collapses a vertex into another one; `moved` becomes the triangles that it had.
+void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
 // Takes over the normal of a triangle whose corners have moved.
 void settle_normal(EvenMesh& even, int32_t triangle);

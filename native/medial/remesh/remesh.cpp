@@ -120,10 +120,7 @@ class Remesher {
     if (!(edge_length(from, to) < kShort * target(from, to))) return false;
     if (!keeps_line(from, to) || !stays_short(from, to) || !can_collapse(e_, from, to))
       return false;
-    moved_.clear();
-    mesh_.for_triangles(from, [&](int32_t t) { moved_.push_back(t); });
-    mesh_.collapse(from, to);
-    for (const int32_t t : moved_) settle_normal(e_, t);
+    medial::collapse(e_, from, to, moved_);
     return true;
   }
 
@@ -246,15 +243,12 @@ class Remesher {
 }  // namespace
 
 void merge_close(EvenMesh& even, std::span<const double> within) {
-  SheetComplex& mesh = even.mesh;
-  std::vector<int32_t> at;
+  const SheetComplex& mesh = even.mesh;
+  std::vector<int32_t> moved;
   const auto merge = [&](int32_t from, int32_t to) {
     if (!mesh.has_triangles(from) || mesh.stratum(from) != Stratum::sheet) return false;
     if (!mesh.can_collapse(from, to) || !turns_none(even, from, to)) return false;
-    at.clear();
-    mesh.for_triangles(from, [&](int32_t t) { at.push_back(t); });
-    mesh.collapse(from, to);
-    for (const int32_t t : at) settle_normal(even, t);
+    collapse(even, from, to, moved);
     return true;
   };
   for (bool merged = true; merged;) {
