@@ -157,16 +157,31 @@ void EvenPlaces::start_from(std::span<const Placing> placing, std::span<const do
 }
 
 void EvenPlaces::place() {
-  std::vector<int32_t> all;
-  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-    if (e_.mesh.has_triangles(v)) all.push_back(v);
-  }
-  place(all);
+  place(vertices_where([](int32_t) { return true; }));
 }
 
 void EvenPlaces::finish() {
   finishes_ = true;
   place();
+  const auto refused = vertices_where([&](int32_t v) {
+    return e_.mesh.stratum(v) == Stratum::sheet && placing_[v] == Placing::refused;
+  });
+  for (const int32_t v : refused) {
+    const Vec3 mean = mean_beside(v);
+    if (keeps_sides(e_, v, mean)) move(e_, v, mean);
+  }
+  place(refused);
+}
+
+// Returns the mean of the neighbours of a vertex inside a sheet, each once for its two triangles.
+Vec3 EvenPlaces::mean_beside(int32_t v) const {
+  Vec3 sum;
+  double count = 0;
+  e_.mesh.for_corners(v, [&](int32_t other) {
+    sum = sum + e_.position[other];
+    ++count;
+  });
+  return (1 / count) * sum;
 }
 
 void EvenPlaces::place_rims() {
@@ -222,15 +237,7 @@ void EvenPlaces::join_neighbour(int32_t v) {
 }
 
 std::vector<int32_t> EvenPlaces::open_rims() const {
-  std::vector<int32_t> rims;
-  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-    if (is_open_rim(v)) rims.push_back(v);
-  }
-  return rims;
-}
-
-bool EvenPlaces::is_open_rim(int32_t v) const {
-  return e_.mesh.has_triangles(v) && e_.held[v] == kFree && e_.mesh.is_rim(v);
+  return vertices_where([&](int32_t v) { return e_.held[v] == kFree && e_.mesh.is_rim(v); });
 }
 
 SmoothRim EvenPlaces::way_out(int32_t v) const {

@@ -19,7 +19,8 @@ class EvenPlaces {
   void start_from(std::span<const Placing> placing, std::span<const double> radius);
   // Places all vertices of triangles. What turns a triangle over is refused.
   void place();
-  // Does the same for the last time: all balls are compared with all faces.
+  // Does the same for the last time: all balls are compared with all faces. Where they refuse the
+  // place of a vertex inside a sheet, it looks for another one from the mean of its neighbours.
   void finish();
   // Moves the rims of smooth sheets towards their ends. Returns whether some moved far. Rims and
   // what is beside them must be placed.
@@ -35,6 +36,16 @@ class EvenPlaces {
  private:
   void place(std::span<const int32_t> vertices);
   void join_neighbour(int32_t v);
+  Vec3 mean_beside(int32_t v) const;
+  // Returns the vertices of triangles for which is_wanted(vertex), ascending.
+  template <typename Wanted>
+  std::vector<int32_t> vertices_where(const Wanted& is_wanted) const {
+    std::vector<int32_t> found;
+    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+      if (e_.mesh.has_triangles(v) && is_wanted(v)) found.push_back(v);
+    }
+    return found;
+  }
   std::vector<int32_t> open_rims() const;
   double hole_at(int32_t v) const;
   bool has_walls(int32_t v) const;
@@ -44,7 +55,6 @@ class EvenPlaces {
   Touch ball_of_walls(int32_t v) const;
   Walls nearest_walls(int32_t v) const;
   std::optional<Touch> smooth_ball_at(int32_t v, const Vec3& start, const Walls& walls) const;
-  bool is_open_rim(int32_t v) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   SmoothRim before_third_wall(int32_t v) const;

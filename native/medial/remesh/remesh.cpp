@@ -16,6 +16,8 @@ constexpr double kStep = 0.5;  // of the way to there, which levels a zigzag at 
 // A step back, a little longer, keeps lines from shrinking where they bend (Taubin 1995).
 constexpr double kStepBack = -0.53;  // derived: 1 / (0.113 - 1 / kStep)
 
+using Ranked = std::tuple<double, int32_t, int32_t>;  // an edge, by what comes first
+
 class Remesher {
  public:
   Remesher(EvenMesh& even, const RemeshOptions& options, const Run& run)
@@ -62,15 +64,6 @@ class Remesher {
   }
 
  private:
-  struct Ranked {
-    double rank;
-    int32_t a, b;
-    bool operator<(const Ranked& other) const {
-      return std::tie(rank, a, b) < std::tie(other.rank, other.a, other.b);
-    }
-    bool operator==(const Ranked& other) const = default;
-  };
-
   // A vertex, and on a curve its neighbours along it.
   struct Place {
     int32_t vertex;
@@ -92,7 +85,7 @@ class Remesher {
       for (int i = 0; i < 3; ++i) {
         const auto [a, b] = std::minmax(mesh_.triangle(t)[i], mesh_.triangle(t)[(i + 1) % 3]);
         const double share = edge_length(a, b) / target(a, b);
-        if (sign > 0 ? share < kShort : share > kLong) found.push_back({sign * share, a, b});
+        if (sign > 0 ? share < kShort : share > kLong) found.emplace_back(sign * share, a, b);
       }
     }
     std::sort(found.begin(), found.end());
@@ -168,10 +161,9 @@ class Remesher {
   void find_places() {
     for (auto& places : places_) places.clear();
     for (int32_t v = 0; v < mesh_.vertices(); ++v) {
-      if (!mesh_.has_triangles(v) || e_.held[v] == kStill) continue;
       const Stratum stratum = mesh_.stratum(v);
       const bool on_curve = stratum == Stratum::curve;
-      if (e_.held[v] && !on_curve) continue;
+      if (!mesh_.has_triangles(v) || e_.held[v] == kStill || (e_.held[v] && !on_curve)) continue;
       places_of(stratum).push_back({v, on_curve ? mesh_.along_curve(v) : Edge{}});
     }
   }
@@ -253,7 +245,7 @@ void merge_close(EvenMesh& even, std::span<const double> within) {
   };
   for (bool merged = true; merged;) {
     merged = false;
-    std::vector<std::tuple<double, int32_t, int32_t>> close;
+    std::vector<Ranked> close;
     for (const auto& [a, b] : mesh.edges()) {
       const double away = distance(even.position[a], even.position[b]);
       if (away < std::min(within[a], within[b])) close.emplace_back(away, a, b);

@@ -14,13 +14,7 @@ namespace {
 // A place of a rim to which no vertex is nearest has the width of what is this many edges away.
 constexpr int kRings = 8;
 
-struct Reached {
-  double value;
-  int32_t vertex;
-  bool operator>(const Reached& other) const {
-    return std::tie(value, vertex) > std::tie(other.value, other.vertex);
-  }
-};
+using Reached = std::pair<double, int32_t>;  // a value, and the vertex that has it
 
 // Does the work of spread_least; calls found(vertex, from) for each vertex whose value is lowered
 // by a neighbour, in the order of the values.
@@ -29,7 +23,7 @@ void spread(const SheetComplex& mesh, std::span<const Vec3> position, double slo
             std::vector<double>& values, const Found& found) {
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
   for (int32_t v = 0; v < mesh.vertices(); ++v) {
-    if (mesh.has_triangles(v) && values[v] < HUGE_VAL) queue.push({values[v], v});
+    if (mesh.has_triangles(v) && values[v] < HUGE_VAL) queue.emplace(values[v], v);
   }
   while (!queue.empty()) {
     const auto [value, v] = queue.top();
@@ -40,7 +34,7 @@ void spread(const SheetComplex& mesh, std::span<const Vec3> position, double slo
       if (!(there < values[other])) return;
       values[other] = there;
       found(other, at);
-      queue.push({there, other});
+      queue.emplace(there, other);
     });
   }
 }
