@@ -2,6 +2,7 @@
 #include "exact/even_places.h"
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "exact/wire_end.h"
 
 namespace medial {
@@ -60,8 +61,7 @@ std::vector<Foot> EvenPlaces::feet_of(int32_t v) const {
   e_.mesh.for_triangles(v, [&](int32_t t) {
     for (const int32_t s : generators_[e_.source[t]]) walls.push_back(samples_.triangle(s));
   });
-  std::sort(walls.begin(), walls.end());
-  walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
+  sort_unique(walls);
   if (walls.empty() || walls.front() < 0) return {};  // no face is known there
   std::vector<Foot> feet, distinct;
   for (const int32_t t : walls) feet.push_back(samples_.faces().descend(t, e_.position[v]));
@@ -167,8 +167,7 @@ void EvenPlaces::finish() {
     return e_.mesh.stratum(v) == Stratum::sheet && placing_[v] == Placing::refused;
   });
   for (const int32_t v : refused) {
-    const Vec3 mean = mean_beside(v);
-    if (keeps_sides(e_, v, mean)) move(e_, v, mean);
+    if (keeps_sides(e_, v, mean_beside(v))) move(e_, v, mean_beside(v));
   }
   place(refused);
 }
@@ -177,10 +176,7 @@ void EvenPlaces::finish() {
 Vec3 EvenPlaces::mean_beside(int32_t v) const {
   Vec3 sum;
   double count = 0;
-  e_.mesh.for_corners(v, [&](int32_t other) {
-    sum = sum + e_.position[other];
-    ++count;
-  });
+  e_.mesh.for_corners(v, [&](int32_t other) { sum = sum + e_.position[other], ++count; });
   return (1 / count) * sum;
 }
 
@@ -189,8 +185,7 @@ void EvenPlaces::place_rims() {
   for (size_t i = 0, rims = near.size(); i < rims; ++i) {
     e_.mesh.for_corners(near[i], [&](int32_t other) { near.push_back(other); });
   }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  sort_unique(near);
   place(near);
 }
 
@@ -296,8 +291,7 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
 double EvenPlaces::step_of(int32_t v, const SmoothRim& way) const {
   if (placing_[v] == Placing::refused) return -way.reach;
   if (way.at_wall) return way.reach;
-  const double open = openness(found_[v].away);
-  return way.reach * (1 - kRimOpenness / open);
+  return way.reach * (1 - kRimOpenness / openness(found_[v].away));
 }
 
 // Returns means along rims, of a vertex and those beside it; what is not known is NaN, and takes on

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/sort.h"
+
 namespace medial {
 namespace {
 
@@ -20,11 +22,11 @@ Edge ordered(int32_t a, int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 struct Diagonal {
   Edge ends;
   int32_t polygon;
-  auto operator<=>(const Diagonal&) const = default;
 };
 
 std::vector<Diagonal> edges_and_diagonals(const Level& level) {
   std::vector<Diagonal> all;
+  all.reserve(2 * level.face_vertices.size() + level.wires.size());
   for (size_t f = 0; f + 1 < level.face_offsets.size(); ++f) {
     const Ring c = corners_of(level, static_cast<int64_t>(f));
     for (size_t i = 0; i < c.size(); ++i) {
@@ -35,17 +37,20 @@ std::vector<Diagonal> edges_and_diagonals(const Level& level) {
     }
   }
   for (const auto& [a, b] : level.wires) all.push_back({ordered(a, b), -1});
-  std::sort(all.begin(), all.end());
   return all;
 }
 
 // Returns whether each polygon shares one of its diagonals.
-std::vector<uint8_t> polygons_that_share(const Level& level) {
+std::vector<uint8_t> polygons_that_share(const Level& level, const Run& run) {
   std::vector<uint8_t> shares(level.face_offsets.size() - 1, 0);
   const auto all = edges_and_diagonals(level);
-  for (size_t i = 1; i < all.size(); ++i) {
-    if (all[i].ends != all[i - 1].ends) continue;
-    for (const int32_t polygon : {all[i].polygon, all[i - 1].polygon}) {
+  const auto end_of = [&](int end) { return [&all, end](int64_t i) { return all[i].ends[end]; }; };
+  const auto order = bucket_order(static_cast<int64_t>(all.size()), level.vertices.size(), run,
+                                  end_of(0), end_of(1));
+  for (size_t i = 1; i < order.size(); ++i) {
+    const Diagonal &one = all[order[i - 1]], &other = all[order[i]];
+    if (one.ends != other.ends) continue;
+    for (const int32_t polygon : {one.polygon, other.polygon}) {
       if (polygon >= 0) shares[polygon] = 1;
     }
   }
@@ -54,9 +59,9 @@ std::vector<uint8_t> polygons_that_share(const Level& level) {
 
 }  // namespace
 
-Simplices simplices_of(const Level& level) {
+Simplices simplices_of(const Level& level, const Run& run) {
   Simplices made;
-  const auto shares = polygons_that_share(level);
+  const auto shares = polygons_that_share(level, run);
   auto centre = static_cast<int32_t>(level.vertices.size());
   for (int32_t f = 0; f < static_cast<int32_t>(shares.size()); ++f) {
     const Ring c = corners_of(level, f);

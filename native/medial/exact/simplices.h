@@ -5,6 +5,7 @@
 
 #include <medial/hierarchy.h>
 
+#include "base/run.h"
 #include "base/triangle.h"
 
 namespace medial {
@@ -18,6 +19,6 @@ struct Simplices {
 // Polygons become fans from their first corner. Samples on a common sphere may cause polygons of
 // which some have a diagonal in common with each other or with an edge; these get a vertex in their
 // middle.
-Simplices simplices_of(const Level& level);
+Simplices simplices_of(const Level& level, const Run& run);
 
 }  // namespace medial

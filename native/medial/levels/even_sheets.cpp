@@ -40,21 +40,20 @@ class EvenSheets {
       generators_.push_back(h_.complex.generators[level_.facet_of[f]]);
     }
     EvenMesh even = start();
-    const SamplesOnFaces* samples = samples_;
-    if (samples) hold_on_creases(even, *samples, generators_, hole_, radius_, run_);
+    if (samples_) hold_on_creases(even, *samples_, generators_, hole_, radius_, run_);
     std::vector<double> within(hole_);
     for (double& w : within) w *= kMerged;
     merge_close(even, within);
     choose_targets(even);
     RemeshOptions options{true, kChord * h_.complex.diagonal, [&](const Vec3& place) {
-                            return samples->creases().nearer(place, HUGE_VAL)->point;
+                            return samples_->creases().nearer(place, HUGE_VAL)->point;
                           }};
     for (int round = 0; round < kRounds; ++round) {
       options.moves_curves = round < kMovingRounds;
       one_round(even, options, 0.4 * round / kRounds);
     }
-    if (!samples) return write_even(even, {}, {}, h_, level_, run_);
-    EvenPlaces places(even, *samples, generators_, level_.wires, run_);
+    if (!samples_) return write_even(even, {}, {}, h_, level_, run_);
+    EvenPlaces places(even, *samples_, generators_, level_.wires, run_);
     settle(even, places, options);
     return write_even(even, places.placing(), places.radius(), h_, level_, run_);
   }
@@ -67,7 +66,7 @@ class EvenSheets {
   }
 
   EvenMesh start() {
-    Simplices simplices = simplices_of(level_);
+    Simplices simplices = simplices_of(level_, run_);
     std::vector<int32_t> origin(level_.vertices.size());
     std::iota(origin.begin(), origin.end(), 0);
     std::vector<Vec3> position(level_.vertices.begin(), level_.vertices.end());

@@ -2,6 +2,7 @@
 #include "remesh/remesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "base/parallel.h"
@@ -9,38 +10,61 @@
 namespace medial {
 namespace {
 
-constexpr int kCollapsePasses = 10;     // at most; each takes the shortest edges first
-constexpr double kFewCollapses = 0.01;  // of the vertices end the passes; chosen: axis
-constexpr int kCurveSteps = 3;          // towards the middle of the neighbours along a curve
-constexpr double kStep = 0.5;  // of the way to there, which levels a zigzag at once; chosen: axis
+constexpr int kCurveSteps = 3;  // towards the middle of the neighbours along a curve
+constexpr double kStep = 0.5;   // of the way to there, which levels a zigzag at once; chosen: axis
 // A step back, a little longer, keeps lines from shrinking where they bend (Taubin 1995).
 constexpr double kStepBack = -0.53;  // derived: 1 / (0.113 - 1 / kStep)
 
 using Ranked = std::tuple<double, int32_t, int32_t>;  // an edge, by what comes first
+
+// Returns the edges that have a rank, in its order; HUGE_VAL is no rank.
+template <typename RankOf>
+std::vector<Ranked> ranked_edges(const SheetComplex& mesh, const RankOf& rank_of) {
+  std::vector<Ranked> ranked;
+  for (const auto& [a, b] : mesh.edges()) {
+    const double rank = rank_of(a, b);
+    if (rank < HUGE_VAL) ranked.emplace_back(rank, a, b);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  return ranked;
+}
+
+// Collapses edges until none can be, in passes. collapse(from, to) returns whether it did so.
+template <typename RankOf, typename Collapse>
+void collapse_all(const SheetComplex& mesh, const RankOf& rank_of, const Collapse& collapse) {
+  for (bool found = true; found;) {
+    found = false;
+    for (const auto& [rank, a, b] : ranked_edges(mesh, rank_of)) {
+      if (!mesh.has_triangles(a) || !mesh.has_triangles(b)) continue;
+      found = collapse(a, b) || collapse(b, a) || found;
+    }
+  }
+}
 
 class Remesher {
  public:
   Remesher(EvenMesh& even, const RemeshOptions& options, const Run& run)
       : e_(even), mesh_(even.mesh), options_(options), run_(run) {}
 
+  // Splits the edges that are too long, the longest first.
   void split() {
-    for (const auto& [longness, a, b] : edges_beyond(-1)) {
+    const auto rank_of = [&](int32_t a, int32_t b) {
+      const double share = share_of_target(a, b);
+      return share > kLong ? -share : HUGE_VAL;
+    };
+    for (const auto& [rank, a, b] : ranked_edges(mesh_, rank_of)) {
       throw_if_cancelled(run_.progress);
       if (!is_still(a, b)) split(a, b);
     }
   }
 
   void collapse() {
-    for (int pass = 0; pass < kCollapsePasses; ++pass) {
-      int64_t done = 0, vertices = 0;
-      for (int32_t v = 0; v < mesh_.vertices(); ++v) vertices += mesh_.has_triangles(v);
-      for (const auto& [shortness, a, b] : edges_beyond(1)) {
-        if (!mesh_.has_triangles(a) || !mesh_.has_triangles(b)) continue;
-        done += collapse(a, b) || collapse(b, a);
-      }
-      throw_if_cancelled(run_.progress);
-      if (static_cast<double>(done) <= kFewCollapses * static_cast<double>(vertices)) return;
-    }
+    throw_if_cancelled(run_.progress);
+    const auto rank_of = [&](int32_t a, int32_t b) {
+      const double share = share_of_target(a, b);
+      return share < kShort ? share : HUGE_VAL;
+    };
+    collapse_all(mesh_, rank_of, [&](int32_t from, int32_t to) { return collapse(from, to); });
   }
 
   void flip() {
@@ -70,28 +94,12 @@ class Remesher {
     Edge along;
   };
 
-  double edge_length(int32_t a, int32_t b) const {
-    return distance(e_.position[a], e_.position[b]);
+  double share_of_target(int32_t a, int32_t b) const {
+    return distance(e_.position[a], e_.position[b]) / target(a, b);
   }
   bool is_still(int32_t a, int32_t b) const { return e_.held[a] == kStill && e_.held[b] == kStill; }
   bool is_on_line(int32_t v) const { return e_.held[v] == kOnLine || e_.held[v] == kInCorner; }
   double target(int32_t a, int32_t b) const { return 0.5 * (e_.target[a] + e_.target[b]); }
-
-  // Returns the edges that are too short (sign 1), shortest first, or too long (-1), longest first.
-  std::vector<Ranked> edges_beyond(double sign) const {
-    std::vector<Ranked> found;
-    for (int32_t t = 0; t < mesh_.triangles(); ++t) {
-      if (mesh_.is_gone(t)) continue;
-      for (int i = 0; i < 3; ++i) {
-        const auto [a, b] = std::minmax(mesh_.triangle(t)[i], mesh_.triangle(t)[(i + 1) % 3]);
-        const double share = edge_length(a, b) / target(a, b);
-        if (sign > 0 ? share < kShort : share > kLong) found.emplace_back(sign * share, a, b);
-      }
-    }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
 
   void split(int32_t a, int32_t b) {
     const bool on_line = is_on_line(a) && is_on_line(b) && !mesh_.is_inside_sheet(a, b);
@@ -109,19 +117,17 @@ class Remesher {
   }
 
   bool collapse(int32_t from, int32_t to) {
-    if (mesh_.stratum(from) > mesh_.stratum(to)) return false;
-    if (!(edge_length(from, to) < kShort * target(from, to))) return false;
-    if (!keeps_line(from, to) || !stays_short(from, to) || !can_collapse(e_, from, to))
-      return false;
-    medial::collapse(e_, from, to, moved_);
-    return true;
+    const bool can = mesh_.stratum(from) <= mesh_.stratum(to) && keeps_line(from, to) &&
+                     stays_short(from, to) && can_collapse(e_, from, to);
+    if (can) medial::collapse(e_, from, to, moved_);
+    return can;
   }
 
   // Returns whether no edge at the vertex gets too long.
   bool stays_short(int32_t from, int32_t to) const {
     bool all = true;
     mesh_.for_corners(from, [&](int32_t other) {
-      all = all && (other == to || edge_length(other, to) < kLong * target(other, to));
+      all = all && (other == to || share_of_target(other, to) < kLong);
     });
     return all;
   }
@@ -238,21 +244,16 @@ void merge_close(EvenMesh& even, std::span<const double> within) {
   const SheetComplex& mesh = even.mesh;
   std::vector<int32_t> moved;
   const auto merge = [&](int32_t from, int32_t to) {
-    if (!mesh.has_triangles(from) || mesh.stratum(from) != Stratum::sheet) return false;
-    if (!mesh.can_collapse(from, to) || !turns_none(even, from, to)) return false;
-    collapse(even, from, to, moved);
-    return true;
+    const bool can = mesh.stratum(from) == Stratum::sheet && mesh.can_collapse(from, to) &&
+                     turns_none(even, from, to);
+    if (can) collapse(even, from, to, moved);
+    return can;
   };
-  for (bool merged = true; merged;) {
-    merged = false;
-    std::vector<Ranked> close;
-    for (const auto& [a, b] : mesh.edges()) {
-      const double away = distance(even.position[a], even.position[b]);
-      if (away < std::min(within[a], within[b])) close.emplace_back(away, a, b);
-    }
-    std::sort(close.begin(), close.end());
-    for (const auto& [away, a, b] : close) merged = merge(a, b) || merge(b, a) || merged;
-  }
+  const auto rank_of = [&](int32_t a, int32_t b) {
+    const double away = distance(even.position[a], even.position[b]);
+    return away < std::min(within[a], within[b]) ? away : HUGE_VAL;
+  };
+  collapse_all(mesh, rank_of, merge);
 }
 
 void remesh(EvenMesh& even, const RemeshOptions& options, const Run& run) {
