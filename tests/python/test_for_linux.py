@@ -91,28 +91,6 @@ def test_modules_for_arm64_have_its_headers_and_its_name(tmp_path, monkeypatch):
     assert "llvm" in needs.of_systems(["linux_arm64"]).values()
 
 
-OLD_GLIBC = """
-#include <stdlib.h>
-#include <sys/single_threaded.h>
-int one(void) { return __libc_single_threaded; }
-"""
-
-
-def test_cgal_compiles_for_an_older_c_library(tmp_path):
-    """CGAL looks for a header that such a library lacks; zig has it, but refuses it."""
-    if zig.origin() is None:
-        pytest.skip("no zig; 'build_addon.py build --linux-arm64' brings it")
-    text = (ROOT / "native" / "zig.cmake").read_text(encoding="utf-8")
-    assert '" -I${CMAKE_CURRENT_LIST_DIR}/old_glibc"' in text
-    source = tmp_path / "a.c"
-    source.write_text(OLD_GLIBC)
-    command = [zig.folder() / zig.TARGETS["zig-linux-arm64"] / "c++", "-x", "c", "-c", source]
-    command += ["-o", tmp_path / "a.o"]
-    subprocess.run([*command, f"-I{ROOT}/native/old_glibc"], check=True)
-    refused = subprocess.run(command, text=True, capture_output=True)
-    assert "did not exist before glibc 2.32" in refused.stderr
-
-
 # Returns 0 where all that older_systems.cpp replaces works, else the number of the line that does not.
 USER = """
 #include <cmath>
