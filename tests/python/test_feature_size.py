@@ -6,7 +6,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from scipy.spatial.distance import cdist
 from support import inputs
 from support.shapes import SHAPES
 
@@ -104,32 +103,6 @@ def test_feature_size_of_exact_shapes(medial, name, density):
     assert error.max() < ERRORS[name][density]
 
 
-@pytest.mark.parametrize("name", ["ellipsoid", "slab", "torus", "capsule"])
-def test_epsilon_halves_when_the_sample_is_four_times_as_dense(medial, name):
-    coarse, fine = (analysis_of(medial, SHAPES[name].sample(n, 1)) for n in (2000, 8000))
-    epsilon = [np.median(a.spacing / a.feature_size()) for a in (coarse, fine)]
-    assert epsilon[1] / epsilon[0] == pytest.approx(0.5, abs=0.03)
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_feature_size_is_lipschitz(medial, name):
-    """It grows no faster than one walks, between any two samples."""
-    points = CASES[name]
-    analysis = analysis_of(medial, points)
-    size, at = analysis.feature_size(), points[analysis.samples]
-    slope = np.abs(size[:, None] - size) - cdist(at, at)
-    assert slope.max() <= 1e-9 * size.max()
-
-
-def test_outer_axis_counts(medial):
-    """Two balls nearly touching: between them the outer axis is nearer than the inner one."""
-    ball = SHAPES["oblate"].sample(3000, 2)
-    points = np.concatenate((ball, ball + np.array([0, 0, 1.1])))
-    size = analysis_of(medial, points).feature_size()
-    below = np.linalg.norm(points - (0, 0, 0.5), axis=1) < 0.15
-    assert below.sum() > 20 and (size[below] < 0.15).all()
-
-
 def test_bounding_sphere_has_no_feature_size(medial):
     points = SHAPES["ellipsoid"].sample(2000, 2)
     plain, bounded = (analysis_of(medial, points, bounding_sphere=b) for b in (False, True))
@@ -149,27 +122,6 @@ def test_spacing_is_the_largest_circumradius_of_the_umbrella(study, name):
     wanted = np.maximum.reduceat(radius, offsets[:-1])
     assert (np.diff(offsets) > 0).all()
     assert np.allclose(analysis.spacing, wanted, rtol=1e-6, atol=0)
-
-
-def test_order_is_that_of_the_samples(medial):
-    """Permuted rows and repeated ones: every value stays with its point."""
-    points = CASES["ellipsoid"]
-    order = np.random.default_rng(1).permutation(np.repeat(np.arange(len(points)), 2))
-    plain, mixed = analysis_of(medial, points), analysis_of(medial, points[order])
-    assert mixed.duplicates == len(points)
-    for values in (lambda a: a.spacing, lambda a: a.feature_size()):
-        assert np.array_equal(values(mixed), values(plain)[order[mixed.samples]])
-
-
-def test_chosen_rows(medial):
-    """In their order, twice where they come twice; of merged rows the sample counts."""
-    points = np.concatenate((CASES["random"], CASES["random"][:50]))
-    analysis = analysis_of(medial, points)
-    every = analysis.feature_size()
-    rows = np.array([7, 1510, 0, 7, 1499], np.int32)
-    chosen = analysis.feature_size(rows=rows)
-    assert np.array_equal(chosen, every[[7, 10, 0, 7, 1499]])
-    assert len(analysis.feature_size(rows=rows[:0])) == 0
 
 
 @pytest.mark.parametrize(

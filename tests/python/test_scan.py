@@ -140,17 +140,6 @@ def test_the_edges_of_the_faces_stay_flat():
     assert np.sqrt((depth[inner, 0] ** 2).mean()) < 0.15 * spacing
 
 
-def test_threads_and_rows_change_nothing(medial):
-    points, _ = noisy(SHAPES["torus"], 0.5)
-    order = np.random.default_rng(2).permutation(len(points))
-    one = medial.prepare_scan(points, medial.measure_scan(points, threads=1), threads=1)
-    turned = points[order]
-    three = medial.prepare_scan(turned, medial.measure_scan(turned, threads=3), threads=3)
-    by_row = np.argsort(order[three.rows])
-    assert np.array_equal(order[three.rows][by_row], one.rows)
-    assert np.array_equal(three.points[by_row], one.points)
-
-
 # ---- the result, and the words
 
 
