@@ -436,7 +436,7 @@ def test_cancelled(here, program, number):
 def test_killed_while_writing_leaves_the_old_file(here, program):
     """kill -9 comes as soon as the new file begins to grow next to the old one."""
     Path("out").mkdir()
-    np.save("big.npy", egg(count=60_000))
+    np.save("big.npy", egg(count=25_000))
     words = "big.npy", "out/big.off", "--mesh", "voronoi"  # a file that takes a while
     assert program(*words, "--rho", "20").returncode == 0
     old = Path("out/big.off").read_bytes(), Path("out/big.off.json").read_bytes()

@@ -69,15 +69,15 @@ def test_vertices_of_unbounded_facets_count(study):
     assert (analysis.feature_size(0.0, 0.0) <= wanted * (1 + THINNING + 1e-9)).all()
 
 
-# Largest relative error at 2,000, 8,000 and 20,000 samples; measured, and a quarter more. The walls of the shell are
+# Largest relative error at 2,000 and 8,000 samples; measured, and a quarter more. The walls of the shell are
 # nearly as thin as the samples of 2,000 are apart.
 ERRORS = {
-    "ellipsoid": (0.18, 0.13, 0.052),
-    "oblate": (0.13, 0.077, 0.029),
-    "slab": (0.15, 0.037, 0.045),
-    "torus": (0.061, 0.042, 0.073),
-    "capsule": (0.034, 0.042, 0.05),
-    "shell": (0.61, 0.2, 0.082),
+    "ellipsoid": (0.18, 0.13),
+    "oblate": (0.13, 0.077),
+    "slab": (0.15, 0.037),
+    "torus": (0.061, 0.042),
+    "capsule": (0.034, 0.042),
+    "shell": (0.61, 0.2),
 }
 
 
@@ -93,10 +93,10 @@ def exact_feature_size(name, points):
     return inner
 
 
-@pytest.mark.parametrize("density", range(3))
+@pytest.mark.parametrize("density", range(2))
 @pytest.mark.parametrize("name", ERRORS)
 def test_feature_size_of_exact_shapes(medial, name, density):
-    points = SHAPES[name].sample((2000, 8000, 20000)[density], 1)
+    points = SHAPES[name].sample((2000, 8000)[density], 1)
     analysis = analysis_of(medial, points)
     wanted = exact_feature_size(name, points)[analysis.samples]
     error = np.abs(analysis.feature_size() / wanted - 1)
