@@ -130,6 +130,12 @@ def test_epsilon_of_adaptive_samples_is_not_that_of_the_run_before():
     assert differences(compute_axis(shape, settings), alone) == []
 
 
+def test_another_seed_gives_other_samples():
+    shape, settings = Shape(*box((4, 3, 2))), replace(FEW, sampling=SamplingMode.SURFACE)
+    found = [compute_axis(shape, replace(settings, seed=seed)) for seed in (0, 1)]
+    assert differences(*found)
+
+
 def bent_shape():
     """A ring and a box above it, of few vertices with normals: something for every option to change."""
     vertices, corners = box((4, 3, 2))
