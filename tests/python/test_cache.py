@@ -16,7 +16,6 @@ from medial_axis.core.settings import (
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
     BallSettings,
-    Criteria,
     Form,
     SamplingMode,
     Settings,
@@ -153,7 +152,6 @@ STARTS = (
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED),
     replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE, detail=0.0),
     replace(FEW, sampling=SamplingMode.ADAPTIVE, form=Form.CLEAN),
-    replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED, criteria=Criteria.ANGLE),
     replace(FEW, sampling=SamplingMode.SURFACE, sides=SidesFrom.WRAP, wrap_opening=5.0),
 )
 

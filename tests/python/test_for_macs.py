@@ -16,11 +16,9 @@ from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     licences,
     macho,
-    other_systems,
     paths,
     zig,
 )
-from tools.packaging.terminal import Failure  # noqa: E402
 
 SYSTEM = "/usr/lib/libSystem.B.dylib"
 NAME = "_medial.cpython-311-darwin.so"
@@ -182,40 +180,6 @@ def test_zig_is_brought_once_and_has_commands_for_each_target(tmp_path, monkeypa
     monkeypatch.setattr(zig, "VERSION", "99")
     zig.bring()
     assert len(brought) == 2, "another version is brought anew"
-
-
-def test_one_file_has_the_module_for_both_processors(built, monkeypatch):
-    made = {"zig-macos-arm64": ["311", "313"], "zig-macos-x64": ["311"]}
-    kinds = {"zig-macos-arm64": image(), "zig-macos-x64": image(macho.X64)}
-    monkeypatch.setattr(zig, "bring", list)
-    monkeypatch.setattr(
-        other_systems.headers,
-        "folders_of",
-        lambda pythons, parent, bring: {version: parent / version for version in pythons},
-    )
-
-    def compile_preset(preset, definition):
-        assert definition.count("macos/3.") == len(made[preset])
-        (built / preset).mkdir(exist_ok=True)
-        for digits in made[preset]:
-            (built / preset / NAME.replace("311", digits)).write_bytes(kinds[preset] + b"debug")
-
-    def strip(command, option, _, target, module):
-        assert (command, option) == ("llvm-strip", "-x")
-        target.write_bytes(module.read_bytes().removesuffix(b"debug"))
-
-    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
-    monkeypatch.setattr(other_systems, "run", strip)
-    both, arm = other_systems.build_for_macs()
-    assert both == paths.LIBRARY / NAME and arm.name == "_medial.cpython-313-darwin.so"
-    assert list(macho.processors(both.read_bytes())) == [macho.ARM64, macho.X64]
-    assert arm.read_bytes() == kinds["zig-macos-arm64"]
-    assert sorted(path.name for path in paths.LIBRARY.iterdir()) == [both.name, arm.name]
-    (built / "zig-macos-x64" / NAME).unlink()
-    made["zig-macos-x64"] = []
-    monkeypatch.setattr(other_systems, "build_preset", lambda preset, definition: None)
-    with pytest.raises(Failure, match=f"Expected .*zig-macos-x64/{NAME}, found none"):
-        other_systems.build_for_macs()
 
 
 def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
