@@ -136,25 +136,6 @@ def test_what_is_hidden_is_converted_too(which, hide):
     assert axis.users_collection and not hidden.visible_get()
 
 
-def test_a_curve_is_one_step_of_undo():
-    bpy.context.preferences.edit.use_global_undo = True
-    torus()
-    compute(**CURVE)
-    bpy.ops.ed.undo_push(message="axis")
-    bpy.ops.object.medial_axis_to_curve()
-    bpy.ops.ed.undo_push(message="Convert to Curve")
-    count = len(bpy.data.curves[0].splines[0].points)
-    for _ in range(2):
-        bpy.ops.ed.undo()
-        assert not bpy.data.curves and len(bpy.data.objects) == 2
-        bpy.ops.ed.redo()
-        (curve,) = bpy.data.curves
-        assert len(curve.splines[0].points) == count
-    bpy.ops.ed.undo()
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}, "after undo the axis is there"
-    assert len(bpy.context.object.data.splines[0].points) == count
-
-
 def vectors(mesh, name):
     values = np.empty(3 * len(mesh.attributes[name].data), np.float32)
     mesh.attributes[name].data.foreach_get("vector", values)

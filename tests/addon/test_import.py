@@ -19,7 +19,6 @@ from scene import (
     triangles_of,
 )
 
-BEFORE_4 = bpy.app.version < (4, 0, 0)
 POINTS, NORMALS = (np.float64(np.float32(x)) for x in on_ellipsoid(500))  # 9 digits are exact
 AXES = ("X", "-X", "Y", "-Y", "Z", "-Z")
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
@@ -87,12 +86,6 @@ def test_what_is_imported_is_selected_alone_and_active(folder):
     assert sorted(names) == ["oriented", "scan"] and not other.select_get()
     assert bpy.context.object.name == "oriented"
     assert sorted(thing.name for thing in collection.objects) == ["oriented", "scan"]
-
-
-def test_importing_again_makes_another(folder):
-    read(folder / "solid.off")
-    read(folder / "solid.off")
-    assert [thing.name for thing in bpy.data.objects] == ["solid", "solid.001"]
 
 
 def test_import_leaves_edit_mode(folder):
@@ -198,14 +191,6 @@ def test_coordinates_that_blender_cannot_hold(folder):
     assert read(folder / "far.xyz", global_scale=1e-3) == {"FINISHED"}
 
 
-def test_coordinates_of_a_country(folder, capfd):
-    np.savetxt(folder / "utm.xyz", 0.2 * POINTS + [500000.1, 5200000.2, 350.3], fmt="%.4f")
-    read(folder / "utm.xyz")
-    ((kind, text), _) = reports(capfd)
-    assert kind == "Warning"
-    assert text.startswith("'utm': Blender keeps coordinates in 32 bits, which moves these points")
-
-
 def test_colours_are_left_with_a_warning(folder, capfd):
     np.savetxt(
         folder / "coloured.xyz", np.column_stack([POINTS, 255 * np.abs(NORMALS)]), fmt="%.9g"
@@ -264,17 +249,6 @@ def test_disabling_removes_operators_and_menu_entries():
     assert present() == [True] * 3
 
 
-def test_no_other_importer_is_replaced():
-    """Blender brings an importer of molecules named import_mesh.xyz."""
-    if not hasattr(bpy.ops.preferences, "addon_enable") or bpy.app.version >= (4, 2, 0):
-        pytest.skip("this Blender brings no Atomic Blender")
-    bpy.ops.preferences.addon_enable(module="io_mesh_atomic")
-    names = {"IMPORT_MESH_OT_xyz", "IMPORT_MESH_OT_points_xyz"}
-    assert names <= {cls for cls in dir(bpy.types) if cls in names}
-    bpy.ops.preferences.addon_disable(module="io_mesh_atomic")
-    assert hasattr(bpy.types, "IMPORT_MESH_OT_points_xyz")
-
-
 def test_dropped_files_are_not_asked_for_again():
     """Blender's helper shows the options alone when it knows the files; before 4.1 there is no dropping."""
     shared, asked = addon("ui.axis.import_points").ImportPoints, []
@@ -305,56 +279,3 @@ def test_files_can_be_dropped_where_blender_takes_them():
     assert not made[0].poll_drop(SimpleNamespace(area=None))
     registered = list(module.HANDLERS)
     assert len(registered) == (2 if hasattr(bpy.types, "FileHandler") else 0)
-
-
-# --- points in Blender's own importers
-
-
-def test_blenders_ply_importer_keeps_points_alone(folder):
-    """Before 4.0 it drops their normals; from then on they become the attribute that we read."""
-    header = "ply\nformat ascii 1.0\nelement vertex 500\n"
-    header += "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
-    with open(folder / "cloud.ply", "w") as stream:
-        stream.write(header + "end_header\n")
-        np.savetxt(stream, np.column_stack([POINTS, NORMALS]), fmt="%.9g")
-    importer = bpy.ops.import_mesh.ply if BEFORE_4 else bpy.ops.wm.ply_import
-    assert importer(filepath=str(folder / "cloud.ply")) == {"FINISHED"}
-    thing = bpy.context.object
-    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
-    assert len(thing.data.polygons) == 0
-    if BEFORE_4:
-        assert normals_of(thing) is None
-    else:
-        np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-6)
-
-
-def test_blenders_ply_importer_keeps_points_beside_faces(folder):
-    header = "ply\nformat ascii 1.0\nelement vertex 500\n"
-    header += "property float x\nproperty float y\nproperty float z\n"
-    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    with open(folder / "part.ply", "w") as stream:
-        stream.write(header)
-        np.savetxt(stream, POINTS, fmt="%.9g")
-        stream.write("3 0 1 2\n")
-    importer = bpy.ops.import_mesh.ply if BEFORE_4 else bpy.ops.wm.ply_import
-    importer(filepath=str(folder / "part.ply"))
-    assert len(bpy.context.object.data.vertices) == 500
-
-
-def test_blenders_obj_importer_keeps_points_alone(folder):
-    """Blender's importer drops the normals."""
-    with open(folder / "cloud.obj", "w") as stream:
-        np.savetxt(stream, POINTS, fmt="v %.9g %.9g %.9g")
-        np.savetxt(stream, NORMALS, fmt="vn %.9g %.9g %.9g")
-    bpy.ops.wm.obj_import(filepath=str(folder / "cloud.obj"), forward_axis="Y", up_axis="Z")
-    thing = bpy.context.selected_objects[0]
-    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
-    assert len(thing.data.polygons) == 0 and normals_of(thing) is None
-
-
-def test_blenders_obj_importer_drops_points_beside_faces(folder):
-    with open(folder / "part.obj", "w") as stream:
-        np.savetxt(stream, POINTS, fmt="v %.9g %.9g %.9g")
-        stream.write("f 1 2 3\n")
-    bpy.ops.wm.obj_import(filepath=str(folder / "part.obj"))
-    assert len(bpy.context.selected_objects[0].data.vertices) == 3

@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Memory in Blender: what is kept, how it is freed, and the limit of an analysis, with and without faces."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import bpy
 import pytest
 from scene import (
@@ -16,7 +12,6 @@ from scene import (
     contents,
     ellipsoid,
     on_ellipsoid,
-    program,
     refuse,
     reports,
     result_of,
@@ -185,29 +180,3 @@ def test_other_thresholds_of_what_was_thinned_are_found_in_the_cache(tight):
     assert bpy.context.scene.medial_axis.note == ""
     compute(source, rho=3.0)
     assert analyses() == before
-
-
-# --- what is told
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="the peak is cleared and read as in Linux")
-@pytest.mark.parametrize(
-    ("faces", "side", "form"),
-    [
-        ("faces", "INNER", "CLEAN"),
-        ("faces", "INNER", "CURVE"),
-        ("faces", "OUTER", "PUBLISHED"),
-        ("faces", "BOTH", "PUBLISHED"),
-        ("bare", "INNER", "CLEAN"),
-        ("bare", "OUTER", "PUBLISHED"),
-        ("bare", "BOTH", "PUBLISHED"),
-    ],
-)
-def test_the_peak_is_what_was_told(faces, side, form):
-    script = Path(__file__).with_name("memory_at_peak.py")
-    words = ["--background", "--factory-startup", "--python-exit-code", "1", "--python", script]
-    command = [program(), *map(str, words), "--", MODULE, faces, side, form]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    peak, told = map(int, said.partition("PEAK ")[2].split()[:2])
-    assert peak == pytest.approx(told, rel=0.15), said

@@ -9,8 +9,6 @@ from scene import (
     addon,
     attribute,
     compute,
-    contents,
-    ellipsoid,
     on_ellipsoid,
     positions,
     refuse,
@@ -19,7 +17,6 @@ from scene import (
     scan,
     select,
     torus,
-    triangles_of,
     world_positions,
 )
 from test_transforms import PLACES, place
@@ -86,14 +83,6 @@ def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
     assert texts[-1].startswith("Done: ") and texts[-1].endswith(" s")
 
 
-def test_it_is_the_compiled_modules_answer():
-    source = scan()
-    reconstruct()
-    found = addon("core.machine.native").load().TightCocone(positions(source.data))
-    surface = surface_of(source)
-    np.testing.assert_array_equal(triangles_of(surface.data), found.triangles)
-
-
 def test_source_is_not_changed():
     source = scan()
     before = (positions(source.data).tobytes(), dict(source.items()), list(source.data.attributes))
@@ -145,16 +134,6 @@ def test_running_again_updates_the_same_object():
     assert np.abs(positions(surface.data)).max() == np.abs(positions(source.data)).max()
 
 
-def test_selected_surface_is_made_anew_from_its_source():
-    source = scan()
-    reconstruct()
-    surface = surface_of(source)
-    assert bpy.context.selected_objects == [surface]
-    select(surface, source)
-    reconstruct()
-    assert surfaces() == [surface]
-
-
 def test_surface_whose_source_is_gone_is_a_mesh_like_any_other():
     source = scan()
     reconstruct()
@@ -163,14 +142,6 @@ def test_surface_whose_source_is_gone_is_a_mesh_like_any_other():
     select(surface)
     reconstruct()
     assert surface_of(surface).name == "Scan Surface Surface"
-
-
-def test_surface_from_a_selected_medial_axis():
-    source = scan()
-    compute()
-    assert bpy.context.object == result_of(source)
-    reconstruct()
-    assert surface_of(source) is not None and len(surfaces()) == 1
 
 
 def test_surface_is_a_source_and_its_axis_that_of_the_scan():
@@ -208,60 +179,9 @@ def test_surface_lies_where_the_points_are(name):
     assert_closed(surface, 2)
 
 
-def test_several_at_once_and_one_that_fails():
-    good, flat = scan("Good"), scan("Flat", [(x, y, 0) for x in range(4) for y in range(4)])
-    other = ellipsoid("Other")
-    select(good, flat, other)
-    with pytest.raises(RuntimeError, match="'Flat': .*plane"):
-        bpy.ops.object.tight_cocone_surface()
-    assert {thing.name for thing in surfaces()} == {"Good Surface", "Other Surface"}
-
-
 def test_bad_points_leave_nothing_behind():
     scan(points=np.random.default_rng(2).normal(size=(300, 3)))
     refuse("'Scan': .*found nothing enclosed", operator="tight_cocone_surface")
-
-
-def test_bad_points_leave_an_older_surface_as_it_was():
-    source = scan()
-    reconstruct()
-    before = triangles_of(surface_of(source).data).tobytes()
-    source.scale = (1, 1, 0)
-    select(source)
-    refuse("plane", operator="tight_cocone_surface")
-    assert triangles_of(surface_of(source).data).tobytes() == before
-
-
-def test_surface_in_edit_mode_is_refused():
-    source = scan()
-    reconstruct()
-    bpy.ops.object.mode_set(mode="EDIT")
-    refuse("in object mode, found it in edit mode", operator="tight_cocone_surface")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert_closed(surface_of(source), 2)
-
-
-def test_source_in_edit_mode():
-    source = scan()
-    bpy.ops.object.mode_set(mode="EDIT")
-    reconstruct()
-    assert source.mode == "EDIT"
-    assert_closed(surface_of(source), 2)
-
-
-def test_cancelled_job_leaves_nothing():
-    points, _ = on_ellipsoid(200_000)
-    task = addon("core.machine.job").Task(
-        "Scan", lambda progress: addon("core.rebuild.reconstruction").reconstruct(points, progress)
-    )
-    before = contents()
-    job = addon("core.machine.job").Job([task])
-    while job.stage == "Preparing":
-        assert not job.done
-    job.cancel()
-    with pytest.raises(addon("core.errors").Cancelled):
-        job.outcomes()
-    assert contents() == before
 
 
 def test_refusal_while_another_computation_runs_names_it():

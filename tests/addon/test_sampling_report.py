@@ -12,7 +12,6 @@ from scene import (
     link,
     positions,
     refuse,
-    reports,
     select,
     suzanne,
     triangles_of,
@@ -115,26 +114,6 @@ def test_selected_report_stands_for_its_source():
     refuse("is a report whose source is gone", operator=REPORT)
 
 
-def test_report_in_edit_mode_is_refused():
-    source = cylinder()
-    found = report(source, **EVEN)
-    count = len(found.data.vertices)
-    bpy.ops.object.mode_set(mode="EDIT")
-    refuse("'Cylinder Sampling' in object mode, found it in edit mode", operator=REPORT)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(found.data.vertices) == count
-
-
-def test_report_lies_where_the_source_lies():
-    source = cylinder()
-    source.location, source.rotation_euler, source.scale = (3, 4, 5), (0.1, 0.2, 0.3), (1, 1, 3)
-    found = report(source, **EVEN)
-    matrix = np.array(found.matrix_world)
-    np.testing.assert_allclose(matrix[:3, 3], (3, 4, 5), atol=1e-6)
-    np.testing.assert_allclose(matrix[:3, :3] @ matrix[:3, :3].T, np.eye(3), atol=1e-5)
-    assert np.ptp(positions(found.data)[:, 2]) == pytest.approx(6.0, abs=0.05)
-
-
 # --- on the source
 
 
@@ -177,22 +156,7 @@ def test_source_that_cannot_take_it_is_one_sentence(make, sentence):
     refuse(sentence, operator=REPORT, target="SOURCE", **EVEN)
 
 
-def test_source_in_edit_mode_is_one_sentence():
-    source = ellipsoid()
-    bpy.ops.object.mode_set(mode="EDIT")
-    refuse("choose Write To Copy", operator=REPORT, target="SOURCE", **EVEN)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert "ma_epsilon" not in source.data.attributes
-
-
 # --- what is said
-
-
-def test_report_says_what_was_done(capfd):
-    report(cylinder(), **EVEN)
-    infos = [text for kind, text in reports(capfd) if kind == "Info"]
-    assert len(infos) == 1
-    assert " samples, " in infos[0]
 
 
 def test_panel_speaks_of_the_report():

@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import addon, ellipsoid, link, positions, renders, reports, select, torus
+from scene import addon, ellipsoid, link, positions, reports, select, torus
 
 
 @pytest.fixture
@@ -156,32 +156,6 @@ def test_saved_file_plays_without_the_addon(growing, tmp_path):
 
 
 @pytest.mark.turn
-@renders
-def test_render_shows_the_right_frame(growing, tmp_path):
-    """The extent of what Workbench draws grows as the axis does."""
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
-    growing.hide_render = True
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    camera.data.type, camera.data.ortho_scale, camera.location = "ORTHO", 4.5, (0, 0, 10)
-    scene = bpy.context.scene
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    scene.render.engine = "BLENDER_WORKBENCH"
-    scene.render.resolution_x = scene.render.resolution_y = 64
-    scene.render.film_transparent = True
-    scene.render.filepath = str(tmp_path / "render_")
-    scene.render.image_settings.file_format = "PNG"
-    bpy.ops.render.render(animation=True)
-    drawn = []
-    for frame in range(1, 5):
-        image = bpy.data.images.load(str(tmp_path / f"render_{frame:04d}.png"))
-        pixels = np.array(image.pixels[:]).reshape(64, 64, 4)
-        drawn.append(int((pixels[..., 3] > 0.5).sum()))
-    assert 0 < drawn[0] < drawn[1] < drawn[2] < drawn[3]
-    assert drawn[3] == pytest.approx(4 * drawn[0], rel=0.25)
-
-
-@pytest.mark.turn
 def test_files_of_a_farm_are_imported(growing, tmp_path, capfd):
     words = [f"{tmp_path}/", "--frames", "1-4", "--format", "npz"]
     assert addon("cli").main(words) == 0
@@ -266,27 +240,6 @@ def test_skeletons_of_every_frame(bending, tmp_path):
         assert max(radii) == pytest.approx(0.3, abs=0.05)
         spans.append(np.linalg.norm(points[-1] - points[0]))
     assert spans[0] > spans[1] > spans[2]
-
-
-def test_skeletons_again_beside_axes_and_by_the_command_line(bending, tmp_path, capfd):
-    words = {"directory": str(tmp_path), "frames": "1-2"}
-    bpy.ops.object.medial_axis_sequence(of="SKELETONS", **words)
-    select(bending)
-    bpy.ops.object.medial_axis_sequence(**words)
-    assert sorted(c.name for c in bpy.data.collections) == [
-        "Arm Medial Axis Sequence",
-        "Arm Skeleton Sequence",
-    ]
-    counts = [len(data) for data in (bpy.data.objects, bpy.data.curves, bpy.data.actions)]
-    reports(capfd)
-    select(bending)
-    bpy.ops.object.medial_axis_sequence(of="SKELETONS", **words)
-    assert ("Info", "2 of 2 frames are there, 2 were before") in reports(capfd)
-    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.curves, bpy.data.actions)]
-    assert (
-        addon("cli").main(["skeleton", f"{tmp_path}/", "--object", "Arm", "--frames", "1-2"]) == 0
-    )
-    assert capfd.readouterr().out.count("1 branches, 2 ends, 0 loops, kept\n") == 2
 
 
 def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_path):

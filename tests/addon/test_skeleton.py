@@ -239,23 +239,6 @@ def test_parts_on_the_faces_of_the_source():
         assert (part[far] == number).all()
 
 
-@pytest.mark.skipif(
-    bpy.app.version >= (3, 6, 0), reason="polygons lie in the order of their corners"
-)
-def test_parts_of_faces_in_another_order():
-    source = cross()
-    extract(parts=True)
-    before = attribute(source.data, "ma_part")
-    for name in ("loop_start", "loop_total"):
-        values = np.empty(len(source.data.polygons), np.int32)
-        source.data.polygons.foreach_get(name, values)
-        source.data.polygons.foreach_set(name, values[::-1].copy())
-    source.data.update()
-    select(source)
-    extract(parts=True)
-    np.testing.assert_array_equal(attribute(source.data, "ma_part"), before[::-1])
-
-
 def test_parts_are_refused_where_there_are_no_faces():
     bpy.ops.curve.primitive_bezier_circle_add()
     bpy.context.object.data.bevel_depth = 0.2
@@ -313,25 +296,6 @@ def test_binding_again_leaves_one_modifier_and_no_old_groups():
     )
     assert {group.name for group in source.vertex_groups} == set(thing.data.bones.keys())
     assert_weights_hold(source)
-
-
-def test_source_with_modifiers_that_make_other_vertices():
-    source = cross()
-    source.modifiers.new("More", "SUBSURF").levels = 1
-    make_armature(bind="AXIS")
-    assert_weights_hold(source)
-
-
-def test_armature_is_one_undo_step():
-    bpy.context.preferences.edit.use_global_undo = True
-    source = cross()
-    bpy.ops.ed.undo_push(message="Scene is set")
-    before = contents()
-    assert bpy.ops.object.medial_axis_armature("EXEC_DEFAULT", True) == {"FINISHED"}
-    assert contents() != before
-    bpy.ops.ed.undo()
-    source = bpy.data.objects["Cross"]
-    assert contents() == before and not source.modifiers and not source.vertex_groups
 
 
 def test_refusals_leave_nothing_behind():

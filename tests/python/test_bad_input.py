@@ -227,16 +227,6 @@ def test_winding_number_checks_its_queries(medial, queries):
 # ---- cancelling
 
 
-def test_cancelled_before_it_starts(medial):
-    progress = medial.Progress()
-    progress.cancel()
-    assert progress.cancelled
-    with pytest.raises(medial.Cancelled):
-        medial.MedialAnalysis(CLOUD, progress=progress)
-    with pytest.raises(medial.Cancelled):
-        medial.MedialAnalysis(CLOUD).extract(progress=progress)
-
-
 @pytest.mark.parametrize("when", [0.02, 0.3, 0.62])
 def test_cancel_from_another_thread(medial, when):
     """At the start, during the triangulation and after: the computation raises, and the module works on."""
@@ -279,17 +269,6 @@ def test_progress_rises_to_one_and_names_its_stages(medial):
 # ---- valid, but extreme
 
 
-@pytest.mark.parametrize("size", [1e-9, 1e9, 1e-30, 1e30])
-def test_coordinates_of_any_size(medial, size):
-    points = shapes.SHAPES["ellipsoid"].sample(1000, 0)
-    plain, scaled = (
-        medial.MedialAnalysis(points).extract(),
-        medial.MedialAnalysis(points * size).extract(),
-    )
-    assert np.array_equal(plain.generators, scaled.generators)
-    assert np.allclose(plain.vertices, scaled.vertices / size, rtol=0, atol=1e-6)
-
-
 @pytest.mark.parametrize("size", [1e60, 1e155, 1e300, 1e-60, 1e-200, 5e-324])
 def test_sizes_whose_squares_leave_the_doubles(medial, size):
     """An answer or a sentence, never a crash or a NaN."""
@@ -301,18 +280,6 @@ def test_sizes_whose_squares_leave_the_doubles(medial, size):
         return
     assert np.isfinite(mesh.vertices).all() and np.isfinite(mesh.radius).all()
     assert np.isfinite(mesh.theta).all() and np.isfinite(mesh.rho).all()
-
-
-def test_a_cloud_shifted_by_a_million(medial):
-    """The grid of doubles there is 1e-10: the same facets but for the smallest."""
-    points = shapes.SHAPES["ellipsoid"].sample(2000, 0)
-    plain, shifted = (
-        medial.MedialAnalysis(points).extract(),
-        medial.MedialAnalysis(points + 1e6).extract(),
-    )
-    a, b = ({tuple(g) for g in mesh.generators.tolist()} for mesh in (plain, shifted))
-    assert len(a ^ b) <= 0.002 * len(a)
-    assert shapes.SHAPES["ellipsoid"].axis_distance(shifted.vertices - 1e6).max() < 0.05
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

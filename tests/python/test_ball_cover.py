@@ -2,10 +2,8 @@
 """Few balls of a solid: exact shapes, every place counted by NumPy, the greedy choice by trying all, files, command."""
 
 import json
-import threading
 from dataclasses import replace
 from functools import cache
-from xml.etree import ElementTree
 
 import medial_axis
 import numpy as np
@@ -17,9 +15,6 @@ from medial_axis.core.errors import (
 )
 from support import meshes, swept
 from support.distance import points_on_triangles
-from support.robot_shapes import shapes_of
-from support.shape_meshes import of_capsule
-from support.shapes import SHAPES
 
 SHIFT = np.array([0.4142, 0.5303, 0.4641])
 BALL = meshes.icosphere(4)
@@ -152,16 +147,6 @@ def test_figures_bound_what_is_measured(medial, mode, refine):
         assert (distances(places_of(medial, case, found.step), balls).min(axis=1) <= 1e-12).all()
 
 
-def test_an_independent_lattice_counts_the_same_volume(medial):
-    """Random places, inside by the sum of solid angles."""
-    case = torus_case()
-    found = cover(medial, case, 20, places=50_000)
-    places = np.random.default_rng(3).uniform((-1.4, -1.4, -0.4), (1.4, 1.4, 0.4), (200_000, 3))
-    solid = places[medial.winding_number(places, *TORUS) > 0.5]
-    held = (distances(solid, (case[1][found.chosen], found.radii)) <= 0).any(axis=1).mean()
-    assert held == pytest.approx(found.covered[-1], abs=0.01)
-
-
 # --- the refined choice
 
 
@@ -251,21 +236,6 @@ def test_no_exchange_of_one_ball_holds_more(medial):
         assert (far[more] > bound - found.step).all()
 
 
-def test_the_order_is_by_volume(medial):
-    case = torus_case()
-    found = cover(medial, case, 12, places=3000)
-    assert len(set(found.chosen.tolist())) == 12 and found.held == found.covered[-1]
-    gains = np.diff(found.covered, prepend=0)
-    assert (np.diff(gains) <= 1e-12).all()
-
-
-def test_more_balls_than_are_refined_are_greedy(medial):
-    case = torus_case()
-    many = cover(medial, case, 1025, places=3000)
-    greedy = cover(medial, case, 1025, places=3000, refine=False)
-    assert many.chosen.tobytes() == greedy.chosen.tobytes()
-
-
 # --- between inside and around
 
 
@@ -287,11 +257,6 @@ def test_tolerance_lies_between_inside_and_around(medial):
     assert (far.radii >= inside.radii).all() and far.outside < 10.0
 
 
-def test_no_ball_grows_without_need(medial):
-    found = cover(medial, (BALL, np.zeros((1, 3)), np.full(1, 0.9)), 1, tolerance=5.0)
-    assert found.radii[0] == pytest.approx(1.0, abs=0.01) and found.farthest == 0.0
-
-
 # --- orders, threads, scales
 
 
@@ -310,31 +275,6 @@ def test_the_first_balls_of_many_are_the_few(medial, mode):
         else:  # what a ball has to hold becomes less
             assert (few.radii <= before[:count]).all()
             before[:count] = few.radii
-
-
-@pytest.mark.turn
-def test_fewer_balls_where_more_add_nothing(medial):
-    centres, radii = np.zeros((3, 3)), np.array([0.5, 0.9, 0.2])
-    found = cover(medial, (BALL, centres, radii), 64)
-    assert found.chosen.tolist() == [1]
-
-
-def test_balls_outside_are_not_chosen(medial):
-    centres = np.array([(3.0, 0, 0), (0, 0, 0), (1.0, 0, 0)])
-    found = cover(medial, (BALL, centres, np.array([1.0, 0.5, 0.7])), 64)
-    assert found.chosen.tolist() == [1]
-
-
-def test_it_can_be_cancelled(medial):
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        cover(medial, torus_case(), 4, progress=progress)
-    late = medial.Progress()
-    timer = threading.Timer(0.05, late.cancel)
-    timer.start()
-    with pytest.raises(medial.Cancelled):
-        cover(medial, torus_case(), 300, "AROUND", places=3_000_000, progress=late)
 
 
 @pytest.mark.parametrize(
@@ -381,31 +321,6 @@ def covered(mesh, **options):
     return medial_axis.cover_by_balls(*mesh, **options)
 
 
-def test_a_ball_is_one_ball():
-    found = covered(BALL, count=64)
-    balls = found.balls
-    assert balls.covered > 0.97 and np.linalg.norm(balls.centres[0]) < 0.01
-    assert balls.radii[0] == pytest.approx(1.0, abs=0.01) and found.shares[0] > 0.97
-    around = covered(BALL, count=1, mode="around").balls
-    assert around.radii[0] == pytest.approx(1.0, abs=0.02) and around.covered == 1.0
-
-
-def test_two_balls_are_two_balls():
-    pair = meshes.join(meshes.icosphere(4), meshes.icosphere(4, 0.5, (3.0, 0, 0)))
-    balls = covered(pair, count=2).balls
-    assert np.allclose(balls.centres, [(0, 0, 0), (3, 0, 0)], atol=0.01)
-    assert np.allclose(balls.radii, (1.0, 0.5), rtol=0.01) and balls.covered > 0.97
-
-
-def test_a_capsule():
-    """Balls of one size along its axis."""
-    shape = SHAPES["capsule"]
-    found = covered(of_capsule(shape), count=16)
-    assert (np.abs(found.balls.radii / found.balls.radii[0] - 1) < 0.03).all()
-    assert found.balls.covered > 0.9
-    assert (np.diff(found.shares) > 0).all()
-
-
 def test_a_cloud_of_points_has_balls():
     random = np.random.default_rng(2)
     points = random.normal(size=(3000, 3))
@@ -420,30 +335,6 @@ def test_an_open_surface_has_balls():
     vertices, triangles = meshes.icosphere(3)
     found = covered((vertices, triangles[8:]), count=4, sampling="vertices")
     assert found.balls.covered > 0.9
-
-
-@pytest.mark.parametrize("count", [5, 12])
-def test_refined_balls_around_reach_out_no_farther_than_greedy_ones(count):
-    reach = [
-        covered(TORUS, count=count, mode="around", sampling="vertices", refine=refine).balls.outside
-        for refine in (True, False)
-    ]
-    assert 0 < reach[0] <= reach[1]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "shapes, count, left, beyond",
-    [("balls", 64, 0.03, 0.04), ("capsules", 50, 0.06, 0.06), ("tapered", 50, 0.06, 0.06)],
-)
-def test_the_hand(data_file, shapes, count, left, beyond):
-    hand = medial_axis.read(data_file("hand_closed.obj"))
-    solid, diagonal = (hand.points, hand.triangles), np.linalg.norm(np.ptp(hand.points, axis=0))
-    balls = covered(solid, count=count, shapes=shapes).balls
-    assert balls.outside == 0.0 and balls.farthest < left * diagonal
-    assert shapes != "balls" or (balls.covered > 0.8 and len(balls.radii) == 64)
-    around = covered(solid, count=count, shapes=shapes, mode="around").balls
-    assert around.farthest == 0.0 and around.outside < beyond * diagonal
 
 
 @pytest.mark.parametrize(
@@ -498,18 +389,6 @@ def few():
     return covered(TORUS, count=5, sampling="vertices").balls
 
 
-@pytest.mark.parametrize("suffix", [".urdf", ".mjcf", ".xml"])
-@pytest.mark.parametrize("stem", ["arm 1", 'a&b<"c">\'', "Grün\x01", "\udcff手"])
-def test_files_of_robots_hold_the_balls(tmp_path, suffix, stem):
-    root = ElementTree.parse(medial_axis.write_balls(few(), tmp_path / (stem + suffix))).getroot()
-    link = root.find("link" if suffix == ".urdf" else "worldbody/body")
-    kinds, ends, radii = zip(*shapes_of(link), strict=True)
-    assert set(kinds) == {"sphere"} and np.array_equal(np.array(ends)[:, 0], few().centres)
-    assert np.array_equal(radii, few().radii)
-    name = root.get("name" if suffix == ".urdf" else "model")
-    assert name == link.get("name") == stem.replace("\x01", "_").replace("\udcff", "_")
-
-
 @pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
 def test_files_of_robots_refuse_what_they_cannot_hold(tmp_path, suffix):
     none = replace(few(), radii=np.where(np.arange(5) == 2, 0.0, few().radii))
@@ -521,17 +400,3 @@ def test_files_of_robots_refuse_what_they_cannot_hold(tmp_path, suffix):
         with pytest.raises(ExportError, match=words):
             medial_axis.write_balls(balls, tmp_path / ("arm" + suffix))
     assert not list(tmp_path.iterdir())
-
-
-def test_placed_balls_scale(tmp_path):
-    from medial_axis.core.cover.write_balls import export_balls
-
-    balls = covered(TORUS, count=5, mode="around", sampling="vertices").balls
-    world = np.array([(0, -2.0, 0, 1), (2.0, 0, 0, 2), (0, 0, 2.0, 3), (0, 0, 0, 1)])
-    known = json.loads(export_balls(balls, tmp_path / "a.json", world).read_text())
-    assert known["outside"] == 2 * balls.outside
-    assert known["balls"][3]["radius"] == 2 * balls.radii[3]
-    x, y, z = balls.centres[3]
-    assert np.allclose(known["balls"][3]["centre"], (1 - 2 * y, 2 + 2 * x, 3 + 2 * z))
-    with pytest.raises(ExportError, match="scaled evenly"):
-        export_balls(balls, tmp_path / "b.json", np.diag((1.0, 2.0, 1.0, 1.0)))

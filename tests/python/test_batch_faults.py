@@ -71,15 +71,6 @@ def test_a_terminal_that_cannot_show_a_name(folder, program, name, encoding):  #
     assert reports[0]["input"] == f"{name}.xyz"
 
 
-def test_a_locale_without_names(folder, program):  # noqa: F811
-    os.rename("egg.xyz", "café.xyz")
-    plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
-    done = program("café.xyz", "last.xyz", "out/", env={**program.environment, **plain})
-    assert (done.returncode, done.stderr) == (0, "")
-    assert outputs(folder) == ["café.ma", "last.ma"]
-    assert json.loads(Path("out/café.ma.json").read_text("utf-8"))["input"] == "café.xyz"
-
-
 @pytest.mark.parametrize("length", [248, 249, 252, 253])
 def test_a_name_whose_report_does_not_fit(folder, run, length):  # noqa: F811
     name = length * "x"
@@ -99,15 +90,6 @@ def test_an_output_that_no_file_system_takes(folder, run, name):  # noqa: F811
     code, (report,), _ = run("egg.xyz", name)
     assert code in (cli.FAILED, cli.INPUT) and report["error"].startswith("Expected ")
     assert files(folder) == ["egg.xyz", "last.xyz"] or (folder / "absent").is_dir()
-
-
-@pytest.mark.skipif(
-    os.name == "nt" or os.geteuid() == 0, reason="for those who may not do everything"
-)
-def test_a_folder_without_permission(folder, run):  # noqa: F811
-    (folder / "locked").mkdir(mode=0o000)
-    code, (report,), _ = run("egg.xyz", "locked/a.ma")
-    assert code == cli.FAILED and "Permission denied" in report["error"]
 
 
 def test_a_folder_whose_permission_the_system_denies(folder, run, monkeypatch):  # noqa: F811
@@ -230,27 +212,6 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
         capture_output=True,
     )
     assert wrong.returncode == cli.USAGE
-
-
-@pytest.mark.oracle
-@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
-@pytest.mark.parametrize(
-    ("megabytes", "axes"), [(348, (1, 0.8, 0.6)), (409, (1, 0.8, 0.6)), (320, (1, 1, 1))]
-)
-def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # noqa: F811
-    """A thread for which glibc has no heap maps pages for every number of the exact predicates, of which a ball takes
-    most; all threads share one.
-    """
-    rows = np.random.default_rng(1).normal(size=(15_000, 3))
-    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * axes)
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
-
-    done = program("many.npy", "many.ma", "--side", "both", preexec_fn=limit, timeout=60)
-    if done.returncode == -11 or "OpenBLAS" in done.stderr:
-        pytest.skip("NumPy itself does not load in so little")
-    assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED)
 
 
 @pytest.mark.oracle

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from medial_axis.cli import main
 from medial_axis.core.curves.bridges import on_loops
-from medial_axis.core.curves.smooth_line import smooth_line, smoothed
+from medial_axis.core.curves.smooth_line import smooth_line
 from medial_axis.core.settings import Settings, SkeletonSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.branches import MEASURES, branches_of, measure_branches
@@ -142,17 +142,6 @@ def test_noise_of_points_does_not_bend_a_line():
     np.testing.assert_allclose(line.points[0], line.points[-1], atol=1e-6)
 
 
-@pytest.mark.parametrize("count", [5, 6, 9, 60])
-def test_smoothing_is_that_of_the_whole_matrix(count):
-    rng = np.random.default_rng(count)
-    places, steps = rng.normal(size=(count, 3)), rng.uniform(1.0, 3.0, count)
-    fourth = np.diff(np.identity(count), 4, axis=0)
-    matrix = np.identity(count) + fourth.T @ (steps[2:-2, None] ** 8 * fourth)
-    np.testing.assert_allclose(
-        smoothed(places, steps), np.linalg.solve(matrix, places), rtol=1e-9, atol=1e-12
-    )
-
-
 def test_measures_have_units():
     """Doubled lengths double and halve numbers to the last bit."""
     t = np.linspace(0, 5, 60)
@@ -178,16 +167,6 @@ def test_lines_without_length_and_without_balls_are_measured():
     assert found.length.tolist() == [0.0, pytest.approx(2.0)]
     assert np.isnan(found.tortuosity[0]) and np.isnan(found.curvature_mean[0])
     assert found.curvature_largest[1] < 1e-6
-
-
-def test_a_ball_has_no_branch(tmp_path):
-    points = np.zeros((1, 3))
-    ball = skeleton_of(points, np.ones(1), [], np.array([0]))
-    assert len(branches_of(ball).length) == 0
-    nowhere = Parts(Places(np.zeros(0, np.int32), np.zeros(0)), np.zeros(0, np.int32))
-    assert len(export_skeleton(ball, nowhere, tmp_path / "a.csv").read_text().splitlines()) == 1
-    found = arrays_of(export_skeleton(ball, nowhere, tmp_path / "a.vtp"))
-    assert found["CellData", "branch"].tolist() == [-1]
 
 
 # --- cross-sections

@@ -8,7 +8,6 @@ import re
 import struct
 import subprocess
 import sys
-import threading
 import zipfile
 
 import pytest
@@ -25,7 +24,7 @@ from tools.packaging import (
     presets,
 )
 from tools.packaging.blender import Blender
-from tools.packaging.terminal import Failure, python_that
+from tools.packaging.terminal import Failure
 
 ROOT = paths.ROOT
 
@@ -91,25 +90,6 @@ def test_missing_packages_without_rights_name_the_command_and_exit_2(monkeypatch
     assert advice in capsys.readouterr().err
 
 
-def test_missing_packages_with_rights_are_installed(monkeypatch):
-    commands = []
-    monkeypatch.setattr(needs.shutil, "which", lambda name: f"/usr/bin/{name}")
-    monkeypatch.setattr(needs, "is_installed", lambda package: package != "xvfb")
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: ["sudo", "-n"])
-    monkeypatch.setattr(needs, "run", lambda *words: commands.append(" ".join(words)))
-    needs.require(needs.TEST)
-    assert commands == [
-        "sudo -n apt-get update -q",
-        "sudo -n env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends xvfb",
-    ]
-
-
-def test_nothing_missing_runs_nothing(monkeypatch):
-    monkeypatch.setattr(needs, "is_installed", lambda package: True)
-    monkeypatch.setattr(needs, "run", lambda *words: pytest.fail("ran " + " ".join(words)))
-    needs.require(needs.BUILD)
-
-
 @pytest.mark.parametrize("command", [["build"], ["test"]])
 def test_readme_names_what_the_commands_install(command):
     """The two sentences of the README that promise what is installed."""
@@ -117,41 +97,6 @@ def test_readme_names_what_the_commands_install(command):
     wanted = needs.DEMO if command == ["build"] else needs.TEST
     named = set(re.findall(r"[\w+.-]+", readme))
     assert not set(wanted.values()) - named
-
-
-def test_packages_are_installed_while_the_core_is_compiled(monkeypatch, tmp_path, capsys):
-    """They are installed at the end of the `with` statement; the output of apt-get goes to a file."""
-    events = []
-
-    def run(*words, **options):
-        assert options["stdout"].name == str(tmp_path / "packages.log")
-        compiling.wait(10)
-        events.append(" ".join(words))
-
-    compiling = threading.Event()
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(needs, "is_installed", lambda package: package != "blender")
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: [])
-    monkeypatch.setattr(needs, "run", run)
-    with needs.required_meanwhile(needs.DEMO):
-        events.append("compiled")
-        compiling.set()
-    assert events[0] == "compiled" and events[-1].endswith("--no-install-recommends blender")
-
-
-def test_packages_that_cannot_be_installed_meanwhile_are_a_failure(monkeypatch, tmp_path, capsys):
-    def run(*words, stdout, stderr):
-        stdout.write("E: no such package\n")
-        raise Failure("apt-get ended")
-
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(needs, "is_installed", lambda package: False)
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: [])
-    monkeypatch.setattr(needs, "run", run)
-    meanwhile = needs.required_meanwhile({"a tool": "a-package"})
-    with pytest.raises(Failure, match="Installing Debian packages failed"), meanwhile:
-        pass
-    assert "E: no such package" in capsys.readouterr().out
 
 
 def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(monkeypatch, capsys):
@@ -201,24 +146,9 @@ def test_each_system_gets_its_own_modules_from_one_folder():
         assert f'platforms = ["{platform}"]'.encode() in own["blender_manifest.toml"]
 
 
-def test_each_processor_of_macs_gets_its_own_image_and_no_promise_without_one():
-    both, arm = (f"lib/_medial.cpython-{digits}-darwin.so" for digits in ("311", "313"))
-    files = {both: macho.join([ARM, INTEL]), arm: ARM, **MANIFEST}
-    of_arm, of_intel = (pack.for_platform(files, f"macos-{name}") for name in ("arm64", "x64"))
-    assert (of_arm[both], of_arm[arm]) == (ARM, ARM)
-    assert of_intel[both] == INTEL and arm not in of_intel
-    assert pack.for_platform({arm: ARM, **MANIFEST}, "macos-x64") == {}
-
-
 def test_missing_blender_exits_2(monkeypatch):
     monkeypatch.setattr(needs, "require", lambda needs: None)
     assert build_addon.main(["build", "--blender", "no-such-blender"]) == 2
-
-
-def test_a_python_that_nobody_has_is_named_with_advice():
-    assert python_that("import json", "") == sys.executable
-    with pytest.raises(Failure, match="runs 'import no_such', found none: .*; install it"):
-        python_that("import no_such", "install it")
 
 
 def test_zip_holds_what_is_needed_and_nothing_else(sources):
@@ -258,29 +188,6 @@ def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(sources):
             assert platform.read(name) == ours.read(f"medial_axis/{name}")
 
 
-def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own(
-    sources, monkeypatch
-):
-    (sources / "lib" / "_medial.cp311-win_amd64.pyd").write_text("for Windows")
-    monkeypatch.setattr(licences, "WINDOWS", ())  # that compiler may not be installed
-    first = pack.pack()
-    found = {
-        system: [
-            name.rpartition("/")[2]
-            for name in zipfile.ZipFile(
-                first.with_name(f"medial_axis-1.2.3{system}.zip")
-            ).namelist()
-            if "_medial" in name
-        ]
-        for system in ("", "-linux-x64", "-windows-x64")
-    }
-    linux, windows = "_medial.cpython-311-x86_64-linux-gnu.so", "_medial.cp311-win_amd64.pyd"
-    assert found == {"": [windows, linux], "-linux-x64": [linux], "-windows-x64": [windows]}
-    (sources / "lib" / windows).unlink()
-    pack.pack()
-    assert not first.with_name("medial_axis-1.2.3-windows-x64.zip").exists(), "nothing old is left"
-
-
 def commit_sources(folder):
     git = ["git", "-C", str(folder), "-c", "user.name=a", "-c", "user.email=a@b.c"]
     subprocess.run(["git", "init", "-q", folder], check=True)
@@ -308,11 +215,6 @@ def test_development_builds_carry_their_commit_and_releases_do_not(sources, monk
     subprocess.run([*git, "commit", "-qam", "more"], check=True)
     subprocess.run([*git, "tag", "v1.2.3"], check=True)
     assert paths.commit() == "" and pack.pack().name == "medial_axis-1.2.3.zip"
-
-
-def test_the_place_of_the_commit_is_in_the_sources():
-    init = (ROOT / "blender_addon" / "__init__.py").read_text(encoding="utf-8")
-    assert init.count('\nCOMMIT = ""') == 1 and "{COMMIT}" in init
 
 
 def test_same_sources_same_zip(sources):
@@ -412,26 +314,6 @@ def test_presets_forget_what_a_command_defined():
     )
 
 
-def test_python_whose_headers_cannot_be_had_is_named(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(modules, "PYTHONS", {"3.11": "bookworm", "3.99": "no-such-suite"})
-    monkeypatch.setenv("PATH", str(tmp_path))  # no apt-get
-    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == {}
-    out = capsys.readouterr().out
-    assert out == "No module for Python 3.99: expected apt-get, found none\n"
-
-
-def test_headers_that_are_there_are_used_without_a_network(tmp_path, monkeypatch, capsys):
-    folder = tmp_path / "python" / "3.13"
-    folder.mkdir(parents=True)
-    (folder / "packages.txt").write_text("libpython3.13-dev 1\npybind11-dev 2\n")
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(modules, "PYTHONS", {"3.13": "trixie"})
-    monkeypatch.setenv("PATH", str(tmp_path))
-    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == {"3.13": folder}
-    assert capsys.readouterr().out == "Python 3.13: libpython3.13-dev 1, pybind11-dev 2\n"
-
-
 def compile_library(folder, source, *options):
     """A shared library of one C++ source."""
     target = folder / "_medial.so"
@@ -486,11 +368,6 @@ def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(tmp_path,
     assert check_module.check(module, local=True)
 
 
-def test_newest_version_counts_in_numbers():
-    assert check_module.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
-    assert check_module.newest("CXXABI", "GLIBC_2.9") == ""
-
-
 def test_clean_removes_what_was_made(tmp_path, monkeypatch):
     for name in (
         "build/release/x",
@@ -518,21 +395,6 @@ def test_clean_removes_what_was_made(tmp_path, monkeypatch):
 # --- presets and licences
 
 
-def test_presets_say_every_setting():
-    """Run as Blender does; tests/addon/test_presets.py compares the values inside Blender."""
-    values = presets.defaults()
-    assert len(values) > 10 and values["side"] == "AUTOMATIC" and values["smooth"] is True
-    text = presets.preset({**values, "rho": 16.0}).splitlines()
-    assert text[:4] == ["import bpy", "", "settings = bpy.context.scene.medial_axis", ""]
-    assert len(text) == 4 + len(values) and "settings.rho = 16.0" in text
-
-
-def test_preset_of_an_unknown_setting_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setitem(presets.PRESETS, "Odd", {"no_such": 1})
-    with pytest.raises(KeyError, match="preset Odd: no setting is called no_such"):
-        presets.write_presets(tmp_path / "presets", presets.defaults())
-
-
 LINUX = "lib/_medial.cpython-311-x86_64-linux-gnu.so"
 
 
@@ -547,22 +409,6 @@ def test_licences_name_what_is_compiled_in_with_versions_and_terms():
     ):
         assert words in text
     assert "winpthreads" not in text and len(text) < 200_000
-
-
-def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    for name in ("3.14", "windows/3.13", "macos/3.11", "linux-arm64/3.13"):
-        folder = tmp_path / "python" / name
-        folder.mkdir(parents=True)
-        (folder / "packages.txt").write_text("libpython-dev 1\npybind11-dev 9.9\n")
-    newer = "another version: pybind11-dev 9.9 (Python 3.14)"
-    assert newer in licences.text([LINUX, LINUX.replace("311", "314")])
-    assert "9.9" not in licences.text([LINUX])
-    mac = "lib/_medial.cpython-311-darwin.so"
-    assert "version: pybind11-dev 9.9 (Python 3.11 for Macs)." in licences.text([LINUX, mac])
-    arm = "lib/_medial.cpython-313-aarch64-linux-gnu.so"
-    assert "9.9 (Python 3.13 for Linux on arm64)." in licences.text([LINUX, arm])
-    assert "9.9" not in licences.text([LINUX.replace("311", "313")])
 
 
 def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):

@@ -145,15 +145,3 @@ def test_thin_ends_are_not_left_bare(shapes):
         *mesh, sampling="vertices", count=8, shapes=shapes, mode="around"
     ).balls
     assert around.farthest == 0.0 and around.outside < 0.5 * balls.farthest
-
-
-def test_scale_changes_no_segment():
-    mesh = meshes.torus(1.0, 0.4, 32, 16)
-    one, large = (
-        medial_axis.cover_by_balls(
-            scale * mesh[0], mesh[1], sampling="vertices", count=4, shapes="tapered"
-        ).balls
-        for scale in (1.0, 2.0**40)
-    )
-    assert (large.centres / 2.0**40).tolist() == one.centres.tolist()
-    assert (large.radii / 2.0**40).tolist() == one.radii.tolist()

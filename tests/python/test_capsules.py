@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 import medial_axis
 import numpy as np
 import pytest
-from medial_axis.core.portable_angle import angle_of
 from support import meshes, swept
 from support.distance import points_on_triangles
 from support.robot_shapes import shapes_of
@@ -184,15 +183,6 @@ def test_fewer_capsules_than_the_topology_needs():
     assert balls.count == 1 and balls.outside == 0.0 and balls.farthest > 0.5
 
 
-@pytest.mark.turn
-def test_a_box_has_capsules():
-    """Its sheets reach the sharp edges, where radii are 0."""
-    mesh = meshes.box()
-    balls = medial_axis.cover_by_balls(*mesh, count=8, shapes="capsules").balls
-    assert 1 <= balls.count <= 8 and balls.outside == 0.0 < balls.covered
-    assert not balls.is_tapered and balls.radii.min() > 0.1 * np.ptp(mesh[0], axis=0).min()
-
-
 # --- files
 
 
@@ -207,20 +197,6 @@ def test_files_say_the_same(tmp_path):
     assert known["covered"] == balls.covered and len(known["balls"]) == len(balls.single)
     assert [one["ends"] for one in known["capsules"]] == balls.centres[balls.edges].tolist()
     assert [one["radii"] for one in known["capsules"]] == balls.radii[balls.edges].tolist()
-
-
-@pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
-def test_files_of_robots_hold_the_capsules(tmp_path, suffix):
-    """A URDF has a cylinder between two spheres, an MJCF a capsule for each."""
-    balls = covered(count=9)
-    root = ElementTree.parse(medial_axis.write_balls(balls, tmp_path / ("a" + suffix))).getroot()
-    found = shapes_of(root.find("link" if suffix == ".urdf" else "worldbody/body"))
-    assert len(found) == (len(balls.radii) + len(balls.edges) if suffix == ".urdf" else balls.count)
-    long = [shape for shape in found if shape[0] != "sphere"]
-    assert {shape[0] for shape in long} == {"cylinder" if suffix == ".urdf" else "capsule"}
-    ends = np.array([shape[1] for shape in long])
-    np.testing.assert_allclose(ends, balls.centres[balls.edges], rtol=0, atol=1e-12)
-    assert np.array_equal([shape[2] for shape in long], balls.radii[balls.edges[:, 0]])
 
 
 @pytest.mark.parametrize("shapes", ["capsules", "balls"])
@@ -255,12 +231,3 @@ def test_parsers_of_urdf_read_them(tmp_path, shapes, parser):
         half = getattr(shape, "length", 0.0) / 2 * item.origin[:3, 2]
         assert np.allclose([item.origin[:3, 3] - half, item.origin[:3, 3] + half], ends)
         assert shape.radius == pytest.approx(radius)
-
-
-def test_angles_are_those_of_the_c_library():
-    random = np.random.default_rng(1)
-    x, y = random.normal(size=(2, 4000)) * 10.0 ** random.integers(-9, 9, 4000)
-    x[:4], y[:4] = (1, -1, 0, 0), (0, 0, 1, -1)
-    wanted = [math.atan2(b, a) for a, b in zip(x, y, strict=True)]
-    np.testing.assert_allclose(angle_of(x, y), wanted, rtol=0, atol=1e-15)
-    assert angle_of(np.zeros(1), np.zeros(1)) == 0.0

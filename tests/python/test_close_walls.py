@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, ThicknessSettings
+from medial_axis.core.settings import Edges, SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.face_lengths import MeasuredFaces
 from medial_axis.core.thickness.thickness import measure_thickness
@@ -73,18 +73,6 @@ def write(path, points, triangles):
 FINS = [
     (width, thickness) for width in (0.05, 0.1, 0.2, 0.5) for thickness in (0.002, 0.0005, 1e-5)
 ]
-
-
-@pytest.mark.parametrize(("width", "thickness"), FINS)
-def test_a_fin_does_not_pass_the_gate(tmp_path, capsys, width, thickness):
-    source = write(tmp_path / "fin.off", *cube_with_fin(width, thickness))
-    words = ["thickness", source, tmp_path / "fin.json", "--limit", "0.02"]
-    assert cli.main(list(map(str, words))) == cli.THIN
-    found = json.loads((tmp_path / "fin.json").read_text())
-    assert found["minimum"] == pytest.approx(thickness, rel=0.01)
-    assert found["share_below"] > 0.0 and found["patches"]
-    x, y, z = min(found["patches"], key=lambda patch: patch["minimum"])["place"]
-    assert abs(x - 0.5) <= width and abs(y - 0.5) <= 0.01 and z >= 0.99
 
 
 def values_near(found, places, reach):
@@ -252,15 +240,6 @@ def test_plates_have_their_thickness_however_thin(thickness):
     assert find_thin_parts(found, 0.02).share > 0.9 and found.unmeasured < 0.01
 
 
-def test_thick_solids_are_as_before():
-    """A cube, a wedge with an acute edge, and a cube with a slot have no walls that were missed."""
-    wedge = np.array([(0, 0, 0), (1, 0, 0), (1, 0, 0.6), (0, 1, 0), (1, 1, 0), (1, 1, 0.6)], float)
-    faces = halves([(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)])
-    for points, triangles in (box(1, 1, 1), box(1, 0.5, 0.3), (wedge, faces)):
-        found = measured(points, triangles)
-        assert len(found.walls.distance) == 0 and found.unmeasured < 0.01
-
-
 def moved_block(*offset):
     points, triangles = box(1.0, 1.0, 1.0)
     return points + np.array(offset), triangles
@@ -293,10 +272,6 @@ def test_ways_end_where_the_solid_does(data_file, medial):
     triangles = triangles.astype(np.int32)
     inside = medial.winding_number(places, points, triangles).reshape(5, -1) > 0.5
     assert len(walls.distance) > 100 and inside[1:4].all() and not inside[[0, 4]].any()
-
-
-def test_a_gap_is_no_wall():
-    assert len(measured(*cube_with_fin(0.1, 0.002), between=Between.GAP).walls.distance) == 0
 
 
 def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):

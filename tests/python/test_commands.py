@@ -7,13 +7,10 @@ those of build_addon.py are read by its parser, and of scripts the names and the
 
 import re
 import shlex
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 from medial_axis import cli
-from support.package import PACKAGE, ROOT
+from support.package import ROOT
 from support.shape_meshes import of_ellipsoid
 from support.shapes import SHAPES
 from test_cli import documented, write_egg, write_input
@@ -91,10 +88,6 @@ def commands_of(page):
         for part in re.split(r"\s{3,}\S|\s#\s", line.strip())[0].split(" && "):
             if len(part.split()) > 1 and part.split()[0] in PROGRAMS and "=" not in part.split()[1]:
                 yield part
-
-
-def found(page, start=""):
-    return [command for command in commands_of(page) if command.startswith(start)]
 
 
 ALL = sorted({command for page in PAGES for command in commands_of(page)})
@@ -205,19 +198,3 @@ def test_scripts_know_their_options(command):
 def test_presets_are_there(command):
     name = re.search(r"--preset (\w+)", command)[1]
     assert f'"name": "{name}"' in (ROOT / "CMakePresets.json").read_text(encoding="utf-8")
-
-
-def test_the_module_alone(tmp_path):
-    """The script of the user guide that imports `_medial`, with the folder of the module on the path."""
-    guide = (ROOT / "docs" / "user_guide.md").read_text(encoding="utf-8")
-    (script,) = re.findall(r"```python\n([^`]*import _medial[^`]*)```", guide)
-    (tmp_path / "ellipsoid_stages.py").write_text(script, encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "ellipsoid_stages.py"],
-        env={"PYTHONPATH": str(Path(PACKAGE) / "lib"), "PYTHONDONTWRITEBYTECODE": "1"},
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    assert len(done.stdout.splitlines()) == 4 and "TIGHT_COCONE" in done.stdout

@@ -70,29 +70,6 @@ def test_distance_to_the_axis_is_that_to_its_nearest_point(name):
     assert far.sum() > 20 and np.median(found[far] / wanted[far]) == pytest.approx(1.0, abs=0.1)
 
 
-@pytest.mark.parametrize("name", ["box", "wedge", "blunt", "bracket"])
-def test_places_just_beyond_convex_edges_are_as_far_off(name):
-    """In all directions; those inside are nearer to the bisector or to the edge, whichever is nearest."""
-    solid, rng = crisp_solids.solid(name), np.random.default_rng(0)
-    moves = 3e-8 * rng.normal(size=solid.edges.shape)
-    off = crisp_measures.off_axis(solid, solid.edges + moves)
-    assert np.all(off <= 1.01 * np.linalg.norm(moves, axis=1))
-
-
-def test_a_shared_foot_is_one_contact():
-    """Just off the reflex edge of a bracket the nearest points of its two faces are nearly one."""
-    solid = crisp_solids.solid("bracket")
-    x = np.array([[0.7 + gap, 0.6, 0.0] for gap in (-1e-3, -1e-12, 0.0, 1e-12, 1e-3)])
-    assert solid.distance(x) == pytest.approx(0.1, abs=1e-5)
-    assert solid.off_axis(x).min() > 0.1
-
-
-def test_the_axis_of_an_arc_counts_where_its_ball_is_empty():
-    solid = crisp_solids.solid("stadium")
-    x = np.array([[1.01, 0.0, 0.0], [1.0, 0.0, 0.0], [0.99, 0.0, 0.0]])
-    assert solid.off_axis(x) == pytest.approx([0.01, 0.0, 0.0], abs=1e-14)
-
-
 # --- the measures, on the axis of the box: 13 polygons on 12 vertices
 
 
@@ -187,118 +164,12 @@ def test_a_wrong_radius_is_noticed():
     assert found.ball.most == pytest.approx(0.4e-6 / crisp_solids.solid("box").diagonal, rel=1e-3)
 
 
-def test_a_missing_polygon_is_noticed():
-    whole = axis_of_box()
-    found = measured(
-        replace(
-            whole,
-            face_offsets=whole.face_offsets[1:] - 4,
-            face_vertices=whole.face_vertices[4:],
-            triangles=whole.triangles[2:],
-            across=whole.across[1:],
-        )
-    )
-    assert found.betti == (1, 0) and found.area < -0.09 and found.cov.most > 0.05
-    assert found.rim == pytest.approx(1.0, abs=1e-14)
-
-
 @pytest.mark.parametrize("row", range(13))
 def test_a_polygon_that_turns_the_other_way_is_folded(row):
     across = axis_of_box().across.copy()
     across[row] *= -1
     folds = replace(axis_of_box(), across=across).rings().folded()
     assert np.flatnonzero(folds).tolist() == [row]
-
-
-def test_a_concave_polygon_is_dented_and_not_folded():
-    """A corner of the middle rectangle moves to where the rectangle becomes a dart; three neighbours stay convex."""
-    rings = moved(11, (-0.8, -0.4, 0.0)).rings()
-    assert rings.dented()[0] and not rings.folded()[0]
-
-
-def flat_polygon(places, turned=0):
-    """One polygon, turned round at random, which is meant to run counter-clockwise about its direction."""
-    places = np.array(places, float)
-    frame = crisp_solids.inputs.rotation(turned)
-    return replace(
-        output_of(places[:3] @ np.eye(2, 3), [[0, 1, 2]], np.array([[0, 0, 1.0]])),
-        vertices=places @ np.eye(2, 3) @ frame.T,
-        face_offsets=np.array([0, len(places)]),
-        face_vertices=np.arange(len(places)),
-        across=frame[:, 2:].T,
-    ).rings()
-
-
-SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
-FOLDED = {
-    "turned over": SQUARE[::-1],
-    "a bow tie": [(0, 0), (2, 0), (0.5, 1), (1.5, 1)],
-    "two sides cross, the area is positive": [(0, 0), (3, 0), (3, 2), (2.9, -0.5), (0, 2)],
-    "out and back along a line": [(0, 0), (1, 0), (2, 0), (1, 0), (1, 1), (0, 1)],
-    "a side runs back beside the last one": [(0, 0), (2, 0), (1, 0.0), (1, 1), (0, 1)],
-    "a spike inwards": [(0, 0), (1, 0), (0.5, 0.3), (1, 0.1), (1, 1), (0, 1)],
-}
-DENTED = {
-    "the rim of a hole": [(0, 0), (0.5, 0.01), (1, 0), (1, 1), (0, 1)],
-    "a dart": [(0, 0), (1, 0.7), (2, 0), (1, 2)],
-    "a right angle": [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
-}
-
-
-@pytest.mark.parametrize("turned", range(3))
-@pytest.mark.parametrize("shape", FOLDED)
-def test_folds(shape, turned):
-    rings = flat_polygon(FOLDED[shape], turned)
-    assert rings.folded().all() and not rings.dented().any()
-
-
-@pytest.mark.parametrize("turned", range(3))
-@pytest.mark.parametrize("shape", DENTED)
-def test_dents_are_no_folds(shape, turned):
-    rings = flat_polygon(DENTED[shape], turned)
-    assert rings.dented().all() and not rings.folded().any()
-
-
-@pytest.mark.parametrize("turned", range(3))
-@pytest.mark.parametrize("at", [(0, 0.5, 2, 1), (0, 0, 1), (0, 1e-20, -3), (0, 0, 0)])
-def test_polygons_on_a_line_are_neither(at, turned):
-    rings = flat_polygon([(x, 0.3 * x) for x in at], turned)
-    assert rings.lines().all() and not rings.folded().any() and not rings.dented().any()
-
-
-@pytest.mark.parametrize("noise", [0.0, 1e-15])
-@pytest.mark.parametrize("shape", ["square", "short sides", "a point"])
-def test_straight_corners_and_short_sides_are_neither(shape, noise):
-    places = {
-        "square": SQUARE,
-        "short sides": [(0, 0), (0.5, 0), (1, 0), (1, 1e-13), (1, 1), (0, 1), (0, 1)],
-        "a point": [(0, 0), (0, 0), (0, 0), (1, 0), (1, 1)],
-    }[shape]
-    for turned in range(5):
-        moves = noise * np.random.default_rng(turned).normal(size=(len(places), 2))
-        rings = flat_polygon(places + moves, turned)
-        assert not (rings.folded() | rings.dented() | rings.lines()).any()
-
-
-def test_wires_and_single_vertices_are_output():
-    """The middle rectangle as its diagonal, and a vertex alone."""
-    whole = axis_of_box()
-    lone = np.concatenate((whole.vertices, [[0.0, 0.1, 0.0]]))
-    thin = replace(
-        whole,
-        vertices=lone,
-        radius=np.append(whole.radius, 0.4),
-        face_offsets=np.zeros(1, int),
-        face_vertices=np.empty(0, int),
-        wires=np.array([[8, 11]]),
-        triangles=np.empty((0, 3), int),
-        across=np.empty((0, 3)),
-    )
-    assert len(thin.cells()) == 1 + 11
-    x = np.array([[0.0, 0.0, 0.0], [0.0, 0.1, 0.02]])
-    assert crisp_measures.distance.to_triangles(x, thin.cells()) == pytest.approx(
-        [0, 0.02], abs=1e-15
-    )
 
 
 # --- crossing triangles
@@ -339,19 +210,6 @@ def test_crossing_pairs_are_those_of_all_pairs(seed):
     assert len(found) > 40 and found.tolist() == [
         list(p) for p in brute_crossings(points, triangles)
     ]
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_coplanar_neighbours_do_not_cross(seed):
-    """Triangles of one turned plane whose common corners are different vertices, up to rounding."""
-    x, y = np.meshgrid(np.arange(20.0), np.arange(20.0), indexing="ij")
-    a = np.column_stack((x.ravel(), y.ravel(), np.zeros(400)))
-    right, up = np.eye(3)[:2]
-    corners = [[a, a + right, a + right + up], [a, a + right + up, a + up]]
-    soup = np.concatenate([np.stack(c, axis=1) for c in corners]).reshape(-1, 3)
-    soup = soup @ crisp_solids.inputs.rotation(seed).T / 3
-    triangles = np.arange(len(soup)).reshape(-1, 3)
-    assert len(crossing_triangles.crossing_pairs(soup, triangles)) == 0
 
 
 def test_a_crossing_pair_of_an_axis_is_noticed():

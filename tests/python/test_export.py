@@ -13,13 +13,11 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.medial_axis import LevelValues, MedialAxis
 from medial_axis.core.errors import ExportError
-from medial_axis.core.files import write as export_module
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
 from support.inputs import rotation
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
-UNKNOWN = ("axis.stl", "axis", "ma", ".ma")
 
 
 def axis_of(vertices, polygons, seed=0):
@@ -359,20 +357,6 @@ def test_files_say_where_balls_end(place, words, triangles, tmp_path):
     assert level.refused == np.count_nonzero(place == 1)
 
 
-@pytest.mark.parametrize("extension", EXTENSIONS)
-def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
-    """Pieces of the file join without a seam: tiny chunks give the same bytes as one large one."""
-    from medial_axis.core.axis import facet_triangles
-    from medial_axis.core.files import rows_of_text
-
-    whole = export_axis(AXES["sheets"], tmp_path / ("a" + extension)).read_bytes()
-    assert export_axis(AXES["sheets"], tmp_path / ("c" + extension)).read_bytes() == whole
-    monkeypatch.setattr(export_module, "_CHUNK", 7)
-    monkeypatch.setattr(rows_of_text, "CHUNK", 5)
-    monkeypatch.setattr(facet_triangles, "_CHUNK", 3)
-    assert export_axis(AXES["sheets"], tmp_path / ("b" + extension)).read_bytes() == whole
-
-
 # --- placing
 
 
@@ -396,14 +380,6 @@ def test_even_scale_scales_radii(name, tmp_path):
     vertices, _, _ = read_ply(export_axis(axis, tmp_path / "a.ply", twice))
     shown = np.column_stack([axis.vertices, axis.radius])
     assert np.allclose(vertices["ball"], 2 * shown, rtol=1e-15)
-
-
-def test_mirror_turns_polygons_round(tmp_path):
-    axis = AXES["sheets"]
-    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    _, faces, _ = read_ply(export_axis(axis, tmp_path / "a.ply", mirror))
-    for face, polygon in zip(faces, polygons_of(axis)):
-        assert face[0].tolist() == [polygon[0], *polygon[:0:-1]]
 
 
 UNEVEN = [(1, 2, 1), (2, 2, 1), (2, 1, 1), (1, 1, 0), (0, 0, 0)]
@@ -513,43 +489,12 @@ def test_interrupted_write_leaves_nothing(
     assert_unwritten(tmp_path, target, old)
 
 
-@pytest.mark.parametrize(
-    "name, words",
-    [
-        ("none/a.ma", "No such file or directory"),
-        ("file/a.ma", "Not a directory"),
-        ("folder.ma", "is not one"),
-        *((name, r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv") for name in UNKNOWN),
-    ],
-)
-def test_targets_that_are_no_files(name, words, tmp_path):
-    (tmp_path / "file").write_bytes(b"precious")
-    (tmp_path / "folder.ma").mkdir()
-    with pytest.raises(ExportError, match=words) as error:
-        export_axis(EMPTY, tmp_path / name)
-    assert one_sentence(error) and (tmp_path / "file").read_bytes() == b"precious"
-    assert sorted(tmp_path.rglob("*")) == [tmp_path / "file", tmp_path / "folder.ma"]
-
-
-def test_target_that_is_a_device(tmp_path):
-    """A device is never replaced by a file; the link to it stays a link."""
-    link = tmp_path / "a.ma"
-    link.symlink_to("/dev/full")
-    with pytest.raises(ExportError, match="is not one"):
-        export_axis(AXES["grid"], link)
-    assert os.readlink(link) == "/dev/full" and Path("/dev/full").is_char_device()
-
-
 def test_link_is_followed(tmp_path):
     (tmp_path / "real").mkdir()
     link = tmp_path / "a.off"
     link.symlink_to(tmp_path / "real" / "b.off")
     assert export_axis(EMPTY, link) == tmp_path / "real" / "b.off"
     assert link.is_symlink() and link.read_text() == "OFF\n0 0 0\n"
-
-
-def test_extension_in_capitals(tmp_path):
-    assert read_ma(export_axis(AXES["grid"], tmp_path / "A.MA"))[0].shape == (144, 4)
 
 
 def test_formats_are_the_documented_ones():

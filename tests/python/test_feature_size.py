@@ -6,7 +6,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from scipy.spatial.distance import cdist
 from support import inputs
 from support.shapes import SHAPES
 
@@ -70,15 +69,15 @@ def test_vertices_of_unbounded_facets_count(study):
     assert (analysis.feature_size(0.0, 0.0) <= wanted * (1 + THINNING + 1e-9)).all()
 
 
-# Largest relative error at 2,000, 8,000 and 20,000 samples; measured, and a quarter more. The walls of the shell are
+# Largest relative error at 2,000 and 8,000 samples; measured, and a quarter more. The walls of the shell are
 # nearly as thin as the samples of 2,000 are apart.
 ERRORS = {
-    "ellipsoid": (0.18, 0.13, 0.052),
-    "oblate": (0.13, 0.077, 0.029),
-    "slab": (0.15, 0.037, 0.045),
-    "torus": (0.061, 0.042, 0.073),
-    "capsule": (0.034, 0.042, 0.05),
-    "shell": (0.61, 0.2, 0.082),
+    "ellipsoid": (0.18, 0.13),
+    "oblate": (0.13, 0.077),
+    "slab": (0.15, 0.037),
+    "torus": (0.061, 0.042),
+    "capsule": (0.034, 0.042),
+    "shell": (0.61, 0.2),
 }
 
 
@@ -94,40 +93,14 @@ def exact_feature_size(name, points):
     return inner
 
 
-@pytest.mark.parametrize("density", range(3))
+@pytest.mark.parametrize("density", range(2))
 @pytest.mark.parametrize("name", ERRORS)
 def test_feature_size_of_exact_shapes(medial, name, density):
-    points = SHAPES[name].sample((2000, 8000, 20000)[density], 1)
+    points = SHAPES[name].sample((2000, 8000)[density], 1)
     analysis = analysis_of(medial, points)
     wanted = exact_feature_size(name, points)[analysis.samples]
     error = np.abs(analysis.feature_size() / wanted - 1)
     assert error.max() < ERRORS[name][density]
-
-
-@pytest.mark.parametrize("name", ["ellipsoid", "slab", "torus", "capsule"])
-def test_epsilon_halves_when_the_sample_is_four_times_as_dense(medial, name):
-    coarse, fine = (analysis_of(medial, SHAPES[name].sample(n, 1)) for n in (2000, 8000))
-    epsilon = [np.median(a.spacing / a.feature_size()) for a in (coarse, fine)]
-    assert epsilon[1] / epsilon[0] == pytest.approx(0.5, abs=0.03)
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_feature_size_is_lipschitz(medial, name):
-    """It grows no faster than one walks, between any two samples."""
-    points = CASES[name]
-    analysis = analysis_of(medial, points)
-    size, at = analysis.feature_size(), points[analysis.samples]
-    slope = np.abs(size[:, None] - size) - cdist(at, at)
-    assert slope.max() <= 1e-9 * size.max()
-
-
-def test_outer_axis_counts(medial):
-    """Two balls nearly touching: between them the outer axis is nearer than the inner one."""
-    ball = SHAPES["oblate"].sample(3000, 2)
-    points = np.concatenate((ball, ball + np.array([0, 0, 1.1])))
-    size = analysis_of(medial, points).feature_size()
-    below = np.linalg.norm(points - (0, 0, 0.5), axis=1) < 0.15
-    assert below.sum() > 20 and (size[below] < 0.15).all()
 
 
 def test_bounding_sphere_has_no_feature_size(medial):
@@ -149,27 +122,6 @@ def test_spacing_is_the_largest_circumradius_of_the_umbrella(study, name):
     wanted = np.maximum.reduceat(radius, offsets[:-1])
     assert (np.diff(offsets) > 0).all()
     assert np.allclose(analysis.spacing, wanted, rtol=1e-6, atol=0)
-
-
-def test_order_is_that_of_the_samples(medial):
-    """Permuted rows and repeated ones: every value stays with its point."""
-    points = CASES["ellipsoid"]
-    order = np.random.default_rng(1).permutation(np.repeat(np.arange(len(points)), 2))
-    plain, mixed = analysis_of(medial, points), analysis_of(medial, points[order])
-    assert mixed.duplicates == len(points)
-    for values in (lambda a: a.spacing, lambda a: a.feature_size()):
-        assert np.array_equal(values(mixed), values(plain)[order[mixed.samples]])
-
-
-def test_chosen_rows(medial):
-    """In their order, twice where they come twice; of merged rows the sample counts."""
-    points = np.concatenate((CASES["random"], CASES["random"][:50]))
-    analysis = analysis_of(medial, points)
-    every = analysis.feature_size()
-    rows = np.array([7, 1510, 0, 7, 1499], np.int32)
-    chosen = analysis.feature_size(rows=rows)
-    assert np.array_equal(chosen, every[[7, 10, 0, 7, 1499]])
-    assert len(analysis.feature_size(rows=rows[:0])) == 0
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modules for Linux: older systems run them; for arm64, headers and names are those of the other processor."""
+"""Modules for Linux: older systems run them; packages for arm64 are those of the other processor."""
 
 import platform
 import re
@@ -15,11 +15,7 @@ sys.path.insert(0, str(ROOT))
 from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     debian,
-    headers,
-    needs,
-    other_systems,
     paths,
-    zig,
 )
 
 APT = """#!/bin/sh
@@ -51,66 +47,6 @@ def test_packages_of_another_processor_are_asked_for(tmp_path, asked_of_apt):
     for line, command in ((update, "update"), (download, "download a")):
         assert "-oAPT::Architecture=arm64 -oAPT::Architectures=arm64" in line
         assert line.endswith(f" {command}")
-
-
-def test_modules_for_arm64_have_its_headers_and_its_name(tmp_path, monkeypatch):
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(paths, "LIBRARY", tmp_path / "lib")
-    monkeypatch.setattr(zig, "bring", list)
-    fetched, stripped = [], []
-    monkeypatch.setattr(headers, "download", lambda *words: fetched.append(words[1:]) or [])
-
-    def extract(packages, folder):
-        version = fetched[-1][1][0].removeprefix("libpython").removesuffix("-dev")
-        for name in ("pybind11", f"aarch64-linux-gnu/python{version}", f"python{version}"):
-            (folder / "usr/include" / name).mkdir(parents=True)
-
-    def compile_preset(preset, definition):
-        assert preset == "zig-linux-arm64" and definition.count("/linux-arm64/3.") == 3
-        for digits in ("311", "313", "314"):
-            name = f"_medial.cpython-{digits}-aarch64-linux-gnu.so"
-            (tmp_path / preset).mkdir(exist_ok=True)
-            (tmp_path / preset / name).write_bytes(b"module")
-
-    def strip(command, option, _, target, module):
-        stripped.append((command, option))
-        target.write_bytes(module.read_bytes())
-
-    monkeypatch.setattr(headers, "extract", extract)
-    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
-    monkeypatch.setattr(other_systems.library, "run", strip)
-    made = other_systems.BUILDERS["linux_arm64"]()
-    assert {(words[0], words[2]) for words in fetched} == {
-        (suite, "arm64") for suite in ("bookworm", "trixie", "sid")
-    }
-    assert [path.name for path in made] == [
-        f"_medial.cpython-{digits}-aarch64-linux-gnu.so" for digits in ("311", "313", "314")
-    ]
-    assert stripped == 3 * [("llvm-strip", "--strip-unneeded")]
-    assert all(path.parent == paths.LIBRARY and path.is_file() for path in made)
-    assert "llvm" in needs.of_systems(["linux_arm64"]).values()
-
-
-OLD_GLIBC = """
-#include <stdlib.h>
-#include <sys/single_threaded.h>
-int one(void) { return __libc_single_threaded; }
-"""
-
-
-def test_cgal_compiles_for_an_older_c_library(tmp_path):
-    """CGAL looks for a header that such a library lacks; zig has it, but refuses it."""
-    if zig.origin() is None:
-        pytest.skip("no zig; 'build_addon.py build --linux-arm64' brings it")
-    text = (ROOT / "native" / "zig.cmake").read_text(encoding="utf-8")
-    assert '" -I${CMAKE_CURRENT_LIST_DIR}/old_glibc"' in text
-    source = tmp_path / "a.c"
-    source.write_text(OLD_GLIBC)
-    command = [zig.folder() / zig.TARGETS["zig-linux-arm64"] / "c++", "-x", "c", "-c", source]
-    command += ["-o", tmp_path / "a.o"]
-    subprocess.run([*command, f"-I{ROOT}/native/old_glibc"], check=True)
-    refused = subprocess.run(command, text=True, capture_output=True)
-    assert "did not exist before glibc 2.32" in refused.stderr
 
 
 # Returns 0 where all that older_systems.cpp replaces works, else the number of the line that does not.

@@ -5,7 +5,6 @@ import hashlib
 import struct
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
@@ -15,14 +14,11 @@ sys.path.insert(0, str(ROOT))
 
 from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
-    headers_for_macs,
     licences,
     macho,
-    other_systems,
     paths,
     zig,
 )
-from tools.packaging.terminal import Failure  # noqa: E402
 
 SYSTEM = "/usr/lib/libSystem.B.dylib"
 NAME = "_medial.cpython-311-darwin.so"
@@ -165,32 +161,6 @@ def test_module_that_names_a_folder_of_its_build_is_refused(built, monkeypatch):
         check_module.check(module)
 
 
-def test_headers_and_library_of_python_are_unpacked(tmp_path):
-    inside = "org/bytedeco/cpython/macosx-arm64"
-    with zipfile.ZipFile(tmp_path / "a.jar", "w") as archive:
-        for name in ("include/python3.13/Python.h", "include/python3.13/cpython/a.h"):
-            archive.writestr(f"{inside}/{name}", name)
-        archive.writestr(f"{inside}/libpython3.13.dylib", "library")
-        archive.writestr(f"{inside}/lib/python3.13/abc.py", "not wanted")
-    headers_for_macs.unpack_python(tmp_path / "a.jar", "3.13", tmp_path / "to")
-    found = {
-        path.relative_to(tmp_path / "to").as_posix()
-        for path in (tmp_path / "to").rglob("*")
-        if path.is_file()
-    }
-    assert found == {"libpython3.13.dylib", "python3.13/Python.h", "python3.13/cpython/a.h"}
-
-
-def test_a_python_for_macs_that_cannot_be_had_is_a_failure(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(Failure, match="expected mvn, found none"):
-        headers_for_macs.fetch_for_macs("3.13", "trixie", tmp_path)
-    (tmp_path / "mvn").write_text("#!/bin/sh\necho no such artifact; exit 1\n")
-    (tmp_path / "mvn").chmod(0o755)
-    with pytest.raises(Failure, match=r"cpython:3\.13\.0-\S+ could not be had: no such artifact"):
-        headers_for_macs.fetch_for_macs("3.13", "trixie", tmp_path / "to")
-
-
 def test_zig_is_brought_once_and_has_commands_for_each_target(tmp_path, monkeypatch):
     monkeypatch.setattr(paths, "BUILD", tmp_path / "with space")
     brought = []
@@ -212,46 +182,6 @@ def test_zig_is_brought_once_and_has_commands_for_each_target(tmp_path, monkeypa
     assert len(brought) == 2, "another version is brought anew"
 
 
-def test_presets_compile_for_the_targets_of_zig():
-    text = (ROOT / "CMakePresets.json").read_text(encoding="utf-8")
-    for preset, target in zig.TARGETS.items():
-        assert f'"name": "{preset}"' in text and f"/build/zig/{target}" in text
-
-
-def test_one_file_has_the_module_for_both_processors(built, monkeypatch):
-    made = {"zig-macos-arm64": ["311", "313"], "zig-macos-x64": ["311"]}
-    kinds = {"zig-macos-arm64": image(), "zig-macos-x64": image(macho.X64)}
-    monkeypatch.setattr(zig, "bring", list)
-    monkeypatch.setattr(
-        other_systems.headers,
-        "folders_of",
-        lambda pythons, parent, bring: {version: parent / version for version in pythons},
-    )
-
-    def compile_preset(preset, definition):
-        assert definition.count("macos/3.") == len(made[preset])
-        (built / preset).mkdir(exist_ok=True)
-        for digits in made[preset]:
-            (built / preset / NAME.replace("311", digits)).write_bytes(kinds[preset] + b"debug")
-
-    def strip(command, option, _, target, module):
-        assert (command, option) == ("llvm-strip", "-x")
-        target.write_bytes(module.read_bytes().removesuffix(b"debug"))
-
-    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
-    monkeypatch.setattr(other_systems, "run", strip)
-    both, arm = other_systems.build_for_macs()
-    assert both == paths.LIBRARY / NAME and arm.name == "_medial.cpython-313-darwin.so"
-    assert list(macho.processors(both.read_bytes())) == [macho.ARM64, macho.X64]
-    assert arm.read_bytes() == kinds["zig-macos-arm64"]
-    assert sorted(path.name for path in paths.LIBRARY.iterdir()) == [both.name, arm.name]
-    (built / "zig-macos-x64" / NAME).unlink()
-    made["zig-macos-x64"] = []
-    monkeypatch.setattr(other_systems, "build_preset", lambda preset, definition: None)
-    with pytest.raises(Failure, match=f"Expected .*zig-macos-x64/{NAME}, found none"):
-        other_systems.build_for_macs()
-
-
 def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
     monkeypatch.setattr(paths, "BUILD", tmp_path)
     assert "LLVM" not in licences.text([f"lib/{NAME}"]), "compiled on a Mac, which has the library"
@@ -262,63 +192,3 @@ def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
     text = licences.text([f"lib/{NAME}"])
     assert f"libcgal-dev 6, ziglang {zig.VERSION}" in text and "The LLVM Project is under" in text
     assert "LLVM" not in licences.text(["lib/_medial.cpython-311-x86_64-linux-gnu.so"])
-
-
-PROJECT = """
-cmake_minimum_required(VERSION 3.25)
-project(small LANGUAGES CXX)
-set(CMAKE_CXX_STANDARD 20)
-set(CMAKE_CXX_EXTENSIONS OFF)
-find_package(Threads REQUIRED)
-add_library(core STATIC core.cpp)
-add_library(module SHARED module.cpp)
-target_link_libraries(module PRIVATE core Threads::Threads)
-target_link_options(module PRIVATE -Wl,-undefined,dynamic_lookup)
-set_target_properties(module PROPERTIES PREFIX "" OUTPUT_NAME _medial.cpython-311-darwin SUFFIX .so
-  INSTALL_NAME_DIR @rpath BUILD_WITH_INSTALL_NAME_DIR ON)
-"""
-CORE = """
-#include <cfloat>
-#include <complex>
-#include <thread>
-#include <vector>
-static_assert(DBL_EPSILON < INFINITY);
-int twice(int x) { std::vector<int> v; std::thread([&] { v.push_back(2 * x); }).join(); return v.at(0); }
-"""
-MODULE = """
-int twice(int);
-extern "C" void* PyList_New(long);
-extern "C" __attribute__((visibility("default"))) void* PyInit__medial() {
-  return twice(1) == 2 ? PyList_New(0) : nullptr;
-}
-"""
-
-
-def test_the_toolchain_of_zig_makes_what_the_checks_accept(tmp_path):
-    if not any((zig.folder() / "cache").glob("o/*/libc++.a")) or zig.origin() is None:
-        pytest.skip("zig has compiled nothing; 'build_addon.py build --macos' brings it and does")
-    if not (paths.BUILD / "python/macos/3.11/libpython3.11.dylib").is_file():
-        pytest.skip("no Python for Macs; 'build_addon.py build --macos' brings it")
-    for name, text in (("CMakeLists.txt", PROJECT), ("core.cpp", CORE), ("module.cpp", MODULE)):
-        (tmp_path / name).write_text(text)
-    commands = zig.folder() / zig.TARGETS["zig-macos-arm64"]
-    options = [f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native/zig.cmake", "-DMEDIAL_SYSTEM_NAME=Darwin"]
-    options += ["-DMEDIAL_SYSTEM_PROCESSOR=arm64", f"-DMEDIAL_ZIG_COMMANDS={commands}"]
-    options += ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-GNinja"]
-    subprocess.run(["cmake", *options, "-S", tmp_path, "-B", tmp_path / "b"], check=True)
-    subprocess.run(["cmake", "--build", tmp_path / "b"], check=True)
-    made = tmp_path / "b" / NAME
-    assert bytes(tmp_path) in made.read_bytes(), "nothing to strip"
-    made.write_bytes(other_systems.stripped(made))
-    assert bytes(tmp_path) not in made.read_bytes()
-    text = check_module.check(made)
-    assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
-    assert f"@rpath/{NAME}".encode() in made.read_bytes()
-
-
-def test_compiled_modules_for_macs_pass():
-    modules = sorted(paths.LIBRARY.glob("_medial.*-darwin.so"))
-    if not modules:
-        pytest.skip("no module for Macs was built; 'build_addon.py build --macos' makes them")
-    for module in modules:
-        assert check_module.check(module)

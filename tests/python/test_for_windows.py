@@ -2,12 +2,10 @@
 """Modules for Windows: what is read of them, what is refused, how they are made. No test needs a Windows."""
 
 import re
-import shutil
 import struct
 import subprocess
 import sys
 import sysconfig
-import tarfile
 from pathlib import Path
 
 import pytest
@@ -19,11 +17,8 @@ from tools.packaging import (  # noqa: E402 - found through the line above
     check_module,
     headers_for_windows,
     licences,
-    needs,
-    other_systems,
     paths,
     pe,
-    zig,
 )
 from tools.packaging.terminal import Failure  # noqa: E402
 
@@ -159,28 +154,6 @@ def test_the_module_gives_out_its_own_entry_alone(tmp_path):
     assert "initialise_medial" in text
 
 
-def test_headers_for_windows_have_its_configuration(tmp_path):
-    names = (
-        "Include/Python.h",
-        "Include/cpython/a.h",
-        "PC/pyconfig.h.in",
-        "Modules/b.h",
-        "pyconfig.h",
-    )
-    with tarfile.open(tmp_path / "source.tar", "w") as archive:
-        for name in names:
-            (tmp_path / "file").write_text(name)
-            archive.add(tmp_path / "file", f"Python-3.13.5/{name}")
-    headers_for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
-    found = sorted(
-        str(path.relative_to(tmp_path / "headers"))
-        for path in (tmp_path / "headers").rglob("*")
-        if path.is_file()
-    )
-    assert found == ["Python.h", "cpython/a.h", "pyconfig.h"]
-    assert (tmp_path / "headers/pyconfig.h").read_text() == "PC/pyconfig.h.in"
-
-
 EXPORTING = (
     'extern "C" { int PyInit(){return 0;} int _PyOther(){return 0;} int PyExc_A = 1; int other; }'
 )
@@ -202,47 +175,6 @@ def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, exporti
     assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]
 
 
-def test_import_library_is_for_the_processor(tmp_path, exporting):
-    dlltool = headers_for_windows.DLLTOOL["arm64"]
-    if shutil.which(dlltool[0]) is None:
-        pytest.skip(f"no {dlltool[0]}; 'build_addon.py build --windows-arm64' installs it")
-    headers_for_windows.make_import_library(exporting, "python399", tmp_path, dlltool)
-    assert struct.pack("<4H", 0, 0xFFFF, 0, pe.ARM64) in (tmp_path / "libpython399.a").read_bytes()
-
-
-def test_modules_for_windows_on_arm64_have_its_headers_and_its_name(tmp_path, monkeypatch):
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(paths, "LIBRARY", tmp_path / "lib")
-    monkeypatch.setattr(zig, "bring", list)
-    fetched, stripped = [], []
-
-    def fetch(version, suite, folder, processor="x64"):
-        fetched.append((version, suite, processor))
-        folder.mkdir(parents=True)
-        return ["pybind11-dev 9"]
-
-    def compile_preset(preset, definition):
-        assert preset == "zig-windows-arm64" and definition.count("/windows-arm64/3.") == 2
-        (tmp_path / preset).mkdir()
-        for digits in ("311", "313"):
-            (tmp_path / preset / f"_medial.cp{digits}-win_arm64.pyd").write_bytes(b"module")
-
-    def strip(command, option, _, target, module):
-        stripped.append((command, option))
-        target.write_bytes(module.read_bytes())
-
-    monkeypatch.setattr(other_systems, "fetch_for_windows", fetch)
-    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
-    monkeypatch.setattr(other_systems.library, "run", strip)
-    made = other_systems.BUILDERS["windows_arm64"]()
-    assert fetched == [("3.11", "bookworm", "arm64"), ("3.13", "trixie", "arm64")]
-    assert [path.name for path in made] == [
-        f"_medial.cp{digits}-win_arm64.pyd" for digits in ("311", "313")
-    ]
-    assert stripped == 2 * [("llvm-strip", "--strip-unneeded")]
-    assert "llvm" in needs.of_systems(["windows_arm64"]).values()
-
-
 def test_a_tool_that_is_missing_is_a_failure(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     for processor, tool in (("x64", "x86_64-w64-mingw32-dlltool"), ("arm64", "llvm-dlltool")):
@@ -259,16 +191,3 @@ def test_licences_of_mingw_belong_to_what_was_compiled_here(tmp_path, monkeypatc
     (tmp_path / "mingw").mkdir()
     with pytest.raises(Failure, match=r"Expected mingw-w64 as /no/such/\*\.a"):
         licences.text(["lib/_medial.cp311-win_amd64.pyd"])
-
-
-def test_licences_name_what_zig_puts_into_modules_for_windows(tmp_path, monkeypatch):
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    for name in ("libcxx/LICENSE.TXT", "libc/mingw/COPYING"):
-        path = zig.program().parent / "lib" / name
-        path.parent.mkdir(parents=True)
-        path.write_text(f"terms in {name}")
-    (zig.folder() / zig.STAMP).write_text(f"ziglang {zig.VERSION}\n")
-    text = licences.text(["lib/_medial.cp311-win_arm64.pyd"])
-    assert "terms in libcxx" in text and "mingw-w64: ZPL-2.1" in text and "libc/mingw/" in text
-    assert "winpthreads" not in text, "it is in modules for x64 alone"
-    assert "ZPL" not in licences.text(["lib/_medial.cpython-311-darwin.so"])

@@ -3,7 +3,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import medial_axis
 import numpy as np
@@ -127,19 +126,6 @@ def test_no_betti_numbers_by_faces_that_bound_nothing(medial):
 # --- what an axis is
 
 
-def test_a_ball_is_one_vertex():
-    axis = computed(SHAPES["ball"][0], smooth=True).axis
-    assert (len(axis.vertices), axis.facets, len(axis.edges)) == (1, 0, 0)
-    assert axis.radius == pytest.approx(1.0, rel=0.02) and not axis.is_empty
-
-
-def test_a_torus_is_a_closed_chain():
-    axis = computed(SHAPES["torus"][0]).axis
-    assert axis.facets == 0 and len(axis.edges) == len(axis.vertices)
-    assert (np.bincount(axis.edges.ravel()) == 2).all()
-    assert np.isinf(axis.level.limb).all()
-
-
 def test_theta_rho_and_side_of_facets_are_those_of_the_analysis():
     for rule in Rule:
         found = computed(SHAPES["box"][0], rule=rule)
@@ -160,16 +146,6 @@ def test_published_is_what_the_module_extracts(medial):
 
 
 # --- settings
-
-
-def test_percent_of_the_diagonal():
-    """A facet is there as long as its own values, as the axis gives them, are above the thresholds."""
-    found = computed(SHAPES["box"][0])
-    whole = medial_axis.extract(found, mesh="voronoi")
-    for name, own in (("simplify", whole.level.sheet), ("erode", whole.level.erosion)):
-        value = 1.0001 * float(np.median(own))  # between two values
-        fewer = medial_axis.extract(found, mesh="voronoi", **{name: value})
-        assert fewer.facets == np.count_nonzero(own > value) < whole.facets
 
 
 def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
@@ -267,12 +243,6 @@ def test_where_crisp_matters(chosen, possible, of_faces):
     assert settings.options_of_faces == of_faces
 
 
-def test_without_faces_crisp_changes_nothing():
-    cloud = Shape(np.asarray(TORUS[0], float), NONE)
-    on, off = (compute_axis(cloud, Settings(crisp=crisp)).axis for crisp in (True, False))
-    assert same_axis(on, off) and not on.level.place.any()
-
-
 @pytest.mark.parametrize("form", [Form.CLEAN, Form.CURVE])
 def test_normals_that_decide_leave_nothing_crisp(form):
     points, faces = (np.asarray(x) for x in BALL)
@@ -280,11 +250,6 @@ def test_normals_that_decide_leave_nothing_crisp(form):
     settings = Settings(form=form, sides=SidesFrom.NORMALS, sampling=SamplingMode.VERTICES)
     on, off = (compute_axis(shape, replace(settings, crisp=x)).axis for x in (True, False))
     assert same_axis(on, off) and not on.level.place.any()
-
-
-def test_crisp_of_an_axis_as_published_changes_nothing():
-    on, off = (computed(SHAPES["box"][0], form=Form.PUBLISHED, crisp=x).axis for x in (True, False))
-    assert same_axis(on, off)
 
 
 def test_crisp_switches_without_another_analysis():
@@ -324,15 +289,6 @@ def test_vertices_are_computed_again_for_other_faces(name):
     assert same_axis(compute_axis(stretched, settings).axis, first)
 
 
-def test_points_of_a_thinned_cloud_are_named_by_their_rows_in_the_whole():
-    rng = np.random.default_rng(0)
-    points = rng.normal(size=(2_000, 3))
-    points /= np.linalg.norm(points / (3, 2, 1), axis=1)[:, None]
-    rows = np.arange(1_999, -1, -1, dtype=np.int32)
-    axis = compute_axis(Shape(points, NONE, rows=rows), Settings()).axis
-    assert axis.facets > 100 and (axis.generators[:, 0] > axis.generators[:, 1]).all()
-
-
 # --- command line
 
 
@@ -358,13 +314,6 @@ def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
     assert reports["clean"]["settings"]["limb"] == 2.0
     assert len({report["stamp"] for report in reports.values()}) == 3
     assert len(medial_axis.read_axis("ring_axis.npz").edges) == reports["curve"]["edges"]
-
-
-@pytest.mark.parametrize("suffix", [".ma", ".ply", ".obj", ".off", ".npz"])
-def test_an_axis_without_faces_is_written(tmp_path, suffix):
-    found = computed(SHAPES["torus"][0])
-    path = medial_axis.write(found, tmp_path / f"ring{suffix}")
-    assert Path(path).stat().st_size > 1_000
 
 
 def test_an_axis_of_as_many_pieces_as_the_faces_is_not_torn():

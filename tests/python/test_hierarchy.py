@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The hierarchy of the inner axis: one ordered collapse, all of whose levels have the topology of the solid."""
 
-import gc
 import math
 
 import numpy as np
@@ -12,7 +11,7 @@ from medial_axis.core.settings import Settings
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
-from support import collapse_reference, measure, meshes, messy, resampled
+from support import collapse_reference, measure, meshes
 from support.accuracy import BARS
 from support.levels import Levels, betti_of_mesh
 from support.shapes import SHAPES
@@ -151,17 +150,6 @@ def test_all_levels_of_random_and_degenerate_inputs_have_the_topology_of_the_com
     assert met > 8
 
 
-@pytest.mark.slow
-def test_all_levels_of_1700_more_inputs_have_the_topology_of_their_complex(medial):
-    """Small inputs, whose drawn levels are counted above: here the masks alone."""
-    tried = 0
-    for seed, _, analysis in inputs(medial, range(300, 2000)):
-        hierarchy = analysis.hierarchy()
-        assert not Levels(hierarchy, analysis).wrong(THRESHOLDS[::3]), seed
-        tried += 1
-    assert tried > 1600
-
-
 # --- shapes with a known axis
 
 # Betti numbers of the solids, and what of MEDIAL's facets on clean samples may be added as bridges at most.
@@ -201,14 +189,6 @@ def test_topology_of_noisy_solids(sampled, name, noise):
     """The normals are those of the clean surface; noise may tear thin solids, and the levels are like their complex."""
     _, analysis, hierarchy = sampled(name, 2000, 0, noise)
     assert_levels_hold(hierarchy, analysis)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SOLIDS)
-@pytest.mark.parametrize("noise", NOISE)
-def test_sixteen_levels_of_noisy_solids(sampled, name, noise):
-    _, analysis, hierarchy = sampled(name, 8000, 0, noise)
-    assert not Levels(hierarchy, analysis).wrong()
 
 
 @pytest.mark.parametrize(
@@ -376,15 +356,6 @@ def test_axis_of_a_tube_of_rings_is_a_line(medial):
     assert level.betti == (1, 0, 0)
 
 
-def test_axis_of_a_coarse_ring_of_circles_is_a_circle(medial):
-    vertices, triangles = meshes.torus(24, 8)
-    hierarchy = medial.MedialAnalysis(vertices, triangles).hierarchy()
-    level = hierarchy.extract(spacings=1.0)
-    assert level.betti == hierarchy.betti == (1, 1, 0)
-    assert len(level.generators) == 0
-    assert np.all(np.bincount(level.wires.ravel()) == 2)
-
-
 # --- what it is asked
 
 
@@ -416,12 +387,6 @@ def test_polygons_are_those_of_extract(medial):
         ]
         start = [np.lexsort(polygon.T)[0] for polygon in own]
         assert np.array_equal(*(np.roll(p, -s, axis=0) for p, s in zip(own, start, strict=True)))
-
-
-def test_it_outlives_its_analysis(medial):
-    hierarchy = medial.MedialAnalysis(SHAPES["torus"].random_sample(3000, 0)).hierarchy()
-    gc.collect()
-    assert hierarchy.extract(spacings=1.0).betti == (1, 1, 0)
 
 
 def test_what_it_refuses(medial):
@@ -477,13 +442,3 @@ def test_real_meshes_have_their_topology_and_one_sheet_of_two_spacings(data_file
     assert tuple(hierarchy.betti) == MESHES[name]
     assert_levels_hold(hierarchy, samples.analysis, THRESHOLDS[1:9:3])
     assert sheets(hierarchy.extract(spacings=2.0)) <= 1
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [*messy.CLOSED, *messy.OPEN])
-def test_sixteen_levels_of_every_mesh(data_file, name):
-    """Parts that overlap and walls thinner than the spacing make strange solids, whose levels hold all the same."""
-    samples = resampled.of_surface(messy.load(name, data_file), 8000).chosen.samples
-    hierarchy = samples.analysis.hierarchy()
-    assert not Levels(hierarchy, samples.analysis).wrong()
-    assert betti_of_mesh(hierarchy.extract(spacings=1.0))[0] == hierarchy.betti[0]

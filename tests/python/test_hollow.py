@@ -94,13 +94,6 @@ def test_cavities_in_closed_form(name):
     assert not len(crossing_pairs(found.vertices, inner))
 
 
-def test_scale_changes_the_unit_alone():
-    plain = hollowed(block(1.0, 0.9, 0.8), 0.2, voxel_size=0.1)
-    large = hollowed(block(1024.0, 0.9 * 1024, 0.8 * 1024), 0.2 * 1024, voxel_size=102.4)
-    np.testing.assert_array_equal(plain.triangles, large.triangles)
-    np.testing.assert_allclose(large.vertices, 1024 * plain.vertices, rtol=1e-9)
-
-
 def test_any_number_of_threads_gives_the_same_bytes(medial, monkeypatch):
     """There are more triangles in the cavity than one thread gets at a time."""
     found = []

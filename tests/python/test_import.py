@@ -6,7 +6,6 @@ import re
 import numpy as np
 import pytest
 from medial_axis.core.errors import ReadError
-from medial_axis.core.files import text as import_text
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.rounding import rounding_warning
 from medial_axis.core.files.write import export_axis
@@ -105,14 +104,6 @@ def test_every_number_is_the_nearest_float64(read):
     assert_points(read("a.xyz", rows(points)), points)
 
 
-def test_pieces_join_without_a_seam(read, monkeypatch):
-    points = np.random.default_rng(2).normal(size=(100, 3))
-    text = rows(points).replace("\n", " # comment\n\n", 50)
-    for size in (1, 7, 100):
-        monkeypatch.setattr(import_text, "_CHUNK", size)
-        assert_points(read("a.xyz", text), points)
-
-
 LEFT = "Left out {} of {} columns: only positions and normals are read"
 UNLIKE = "Left out 3 of 6 columns: .*\\.xyzn"
 COLUMNS = {  # the name, the columns after x y z, the normals among them, and the warning
@@ -170,12 +161,6 @@ XYZ_REFUSED = {
     "blanks among commas": ("1,2,3\n1 2,3,\n", "between each two ',' in line 2 of 'a.xyz'"),
     "one line": ("1 2 3 " * 5 + "\n1 2 3\n", "Expected 15 numbers in line 2 .*found 3"),
 }
-
-
-def test_line_numbers_in_a_later_piece(refuse, monkeypatch):
-    monkeypatch.setattr(import_text, "_CHUNK", 10)
-    refuse("a.xyz", "1 2 3\n# comment\n\n" * 50 + "1 2 x\n", "in line 151 of 'a.xyz', found 'x'")
-    refuse("a.xyz", "1 2 3\n# comment\n\n" * 50 + "1 2\n", "in line 151 of 'a.xyz', .* found 2")
 
 
 @pytest.mark.parametrize("name", ["a.xyz", "a.off"])
@@ -252,12 +237,6 @@ def test_off_polygons_of_any_size(read):
     assert found.face_offsets.tolist() == [0, 3, 11, 16, 20]
     assert found.face_vertices.tolist() == [0, 1, 2, *range(8), 7, 6, 5, 4, 3, 1, 2, 3, 4]
     assert found.warnings == ("Left out faces of fewer than three corners: 3",)
-
-
-def test_off_points_alone(read):
-    found = read("a.off", off(header="OFF 8 0 0\n", faces=[]))
-    assert_points(found, CUBE)
-    assert found.face_offsets.tolist() == [0] and len(found.face_vertices) == 0
 
 
 def lines_of(text, line, new):
@@ -363,13 +342,6 @@ def test_reading_does_not_change_the_file(file):
 
 
 # --- data of others
-
-
-@pytest.mark.parametrize("name, count", [("cactus.xyz", 3318), ("distcap.xyz", 12745)])
-def test_scans(data_file, name, count):
-    found = import_points(data_file(name))
-    assert_points(found, np.loadtxt(data_file(name)))
-    assert (len(found.vertices), found.faces, found.warnings) == (count, 0, ())
 
 
 @pytest.mark.parametrize(

@@ -201,62 +201,6 @@ def test_the_input_is_not_changed(medial):
     assert np.array_equal(points, CLOUDS["random"])
 
 
-def test_timings_name_the_stages(result):
-    timings = result[1].timings
-    assert next(iter(timings)) and all(
-        isinstance(name, str) and seconds >= 0 for name, seconds in timings.items()
-    )
-    assert any("triangulation" in name for name in timings)
-
-
-def umbrella_is_disc(triangles):
-    """The links (a, b) of the triangles form one closed ring."""
-    links = {}
-    for _, a, b in triangles.tolist():
-        links.setdefault(a, []).append(b)
-        links.setdefault(b, []).append(a)
-    if any(len(x) != 2 for x in links.values()):
-        return False
-    start = here = next(iter(links))
-    before, count = None, 0
-    while count == 0 or here != start:
-        a, b = links[here]
-        here, before = (a if a != before else b), here
-        count += 1
-    return count == len(links)
-
-
-@pytest.mark.parametrize(
-    "name, chi",
-    [
-        ("ellipsoid", 2),
-        ("oblate", 2),
-        ("slab", 2),
-        ("torus", 0),
-        ("capsule", 2),
-        ("knot", 0),
-        ("shell", 4),
-    ],
-)
-def test_umbrellas_of_dense_closed_samples_are_discs(study, name, chi):
-    """They make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
-    points = shapes.SHAPES[name].sample(4000, 1)
-    offsets, triangles = study.umbrellas(points)
-    umbrellas = np.split(triangles, offsets[1:-1])
-    assert all(umbrella_is_disc(umbrella) for umbrella in umbrellas)
-    assert len(triangles) / len(points) == pytest.approx(6 * (1 - chi / len(points)), rel=3e-3)
-
-
-def test_a_cosphere_gives_a_point_and_does_not_crash(medial):
-    for points in (
-        meshes.uv_sphere()[0],
-        meshes.icosphere(3)[0],
-        meshes.uv_sphere()[0].astype(np.float32),
-    ):
-        mesh = medial.MedialAnalysis(points).extract()
-        assert (np.linalg.norm(mesh.vertices, axis=1) < 1e-5).all()
-
-
 def test_bounding_sphere_bounds_the_outer_axis(medial):
     """Dey & Zhao, sect. 4.2: nothing selected reaches infinity, ids stay those of the input, the inner axis stays."""
     points = shapes.SHAPES["slab"].sample(2000, 0)
@@ -277,15 +221,3 @@ def test_bounding_sphere_bounds_the_outer_axis(medial):
             {tuple(g) for g, c in zip(mesh.generators.tolist(), polygons(mesh)) if inside[c].all()}
         )
     assert len(inner[0] ^ inner[1]) <= 0.01 * len(inner[0])
-
-
-def test_bounding_sphere_of_a_torus_keeps_its_outer_axis(medial):
-    torus = shapes.SHAPES["torus"]
-    vertices, triangles = meshes.jitter(meshes.torus(around=96, across=40), 1e-4)
-    mesh = medial.MedialAnalysis(vertices, triangles, bounding_sphere=True).extract(
-        side=medial.Side.OUTER
-    )
-    near = np.linalg.norm(mesh.vertices, axis=1) < 1.0
-    assert mesh.unbounded == 0 and near.sum() > 100
-    assert torus.outer_axis_distance(mesh.vertices[near]).max() < 0.08
-    assert np.linalg.norm(mesh.vertices, axis=1).max() < 2 * 1.4

@@ -85,19 +85,6 @@ def test_blender_that_runs_is_in_the_table_and_others_are_skipped_by_name(played
     assert table.count("| Elsewhere |") == 9 and "not tested: no network |" in table
 
 
-def test_rows_of_blenders_that_were_not_asked_stay(matrix, tmp_path):
-    path = tmp_path / "table.md"
-    path.write_text(f"By hand.\n{matrix.MARK}\n")
-    sources = ["One 1", "Two 2", "Three 3"]
-    matrix.write_table(path, [matrix.Row("Two 2", "no disk"), matrix.Row("One 1", "no")], sources)
-    matrix.write_table(path, [matrix.Row("Two 2", facts=FACTS, tests="9 passed")], sources)
-    lines = path.read_text().splitlines()
-    assert [line.split(" | ")[1] for line in lines[5:]] == ["One 1", "Two 2"]
-    assert "not tested: no" in lines[5] and "9 passed" in lines[6]
-    matrix.write_table(path, [], sources[:1])
-    assert len(path.read_text().splitlines()) == 6, "a Blender that is asked no more has no row"
-
-
 @pytest.mark.parametrize(
     "wrong, told",
     [
@@ -109,12 +96,6 @@ def test_rows_of_blenders_that_were_not_asked_stay(matrix, tmp_path):
 def test_failure_in_a_blender_that_runs_is_a_failure(played, wrong, told):
     code, out, _ = played(Fake(), **wrong)
     assert code == 1 and f"FAILED Nowhere 1: {told}" in out
-
-
-def test_tests_that_end_without_a_result_are_a_failure(matrix, tmp_path):
-    row = matrix.Row("Nowhere 1")
-    matrix.judge_tests(row, 0, "....Windows fatal exception: access violation\n", tmp_path)
-    assert row.failures == [f"tests: no result (see {tmp_path / 'tests.log'})"]
 
 
 def test_different_exports_in_two_blenders_are_a_failure(played):

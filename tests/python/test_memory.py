@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Memory: what the cache holds, what an analysis may need, and what is done when it needs more."""
 
-import argparse
 import os
 import subprocess
 import sys
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis, refilter
-from medial_axis.core.batch import option_words
 from medial_axis.core.errors import InvalidInputError, MemoryLimitError
 from medial_axis.core.files import numpy_arrays
-from medial_axis.core.machine import cache, few_addresses, free_memory
+from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache, bytes_of
 from medial_axis.core.machine.memory_limit import CURVE, MemoryLimit, Use, memory_needed
@@ -132,10 +129,6 @@ def test_an_analysis_larger_than_the_cache_serves_its_own_run(monkeypatch):
 # --- the memory that is free
 
 
-def test_free_memory_is_less_than_all_memory():
-    assert 0 < free_memory.free_memory() <= free_memory._installed()
-
-
 def test_free_memory_of_linux():
     text = "MemTotal:       24684084 kB\nMemAvailable:   22233264 kB\n"
     assert free_memory._available(text) == 22233264 * 1024
@@ -167,32 +160,7 @@ def test_free_memory_of_control_groups(tmp_path, line, folder, names, dropped):
     assert list(free_memory._left_in_groups(lines, tmp_path)) == []
 
 
-# --- few addresses
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="heaps of threads are those of Linux")
-@pytest.mark.parametrize(("limited", "calls"), [(True, [(-8, 1)]), (False, [])])
-def test_threads_share_one_heap_where_addresses_are_limited(monkeypatch, limited, calls):
-    import resource  # there is none on Windows
-
-    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "0")  # so that it is as before after this test
-    monkeypatch.delenv("OPENBLAS_NUM_THREADS")
-    found, limit = [], 1 << 32 if limited else resource.RLIM_INFINITY
-    library = SimpleNamespace(mallopt=lambda option, value: found.append((option, value)))
-    monkeypatch.setattr(few_addresses.ctypes, "CDLL", lambda name: library)
-    monkeypatch.setattr(resource, "getrlimit", lambda kind: (limit, limit))
-    few_addresses.share_one_heap()
-    assert found == calls
-    assert os.environ.get("OPENBLAS_NUM_THREADS") == ("1" if limited else None)
-
-
 # --- what an analysis needs
-
-
-def test_memory_needed_grows_with_the_points():
-    needed = [memory_needed(10**power) for power in range(9)]
-    assert needed == sorted(set(needed))
-    assert 200 * 10**6 < memory_needed(10**6) < 4000 * 10**6
 
 
 def test_limit_in_megabytes_is_the_limit(room):
@@ -230,12 +198,6 @@ def test_kept_analyses_make_way_for_a_new_one(room):
     assert len(CACHE) == 2
     MemoryLimit().check(1001)
     assert CACHE.get("a") is None and CACHE.get("b") == "B"
-
-
-@pytest.mark.parametrize("megabytes", [-1, 1 << 25])
-def test_limits_out_of_range_are_refused(megabytes):
-    with pytest.raises(InvalidInputError, match="Expected memory_limit from 0 to"):
-        MemoryLimit(megabytes)
 
 
 # --- refusing
@@ -382,12 +344,6 @@ def test_too_little_for_anything_is_refused(room):
             compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
 
 
-def test_thinned_surfaces_through_points(room):
-    room(5000)
-    found = reconstruct(cloud().points, limit=MemoryLimit(0, THIN))
-    assert 3000 < found.points <= 5000 and "evenly spread, were kept" in found.warnings[0]
-
-
 def test_thinning_is_deterministic_and_close():
     points = egg(20_000)
     rows = spread_rows(points, 3000)
@@ -396,12 +352,6 @@ def test_thinning_is_deterministic_and_close():
     far = cKDTree(points[rows]).query(points)[0].max()
     spacing = np.sqrt(4 * np.pi * 0.5 / len(rows))
     assert far < 3 * spacing
-
-
-@pytest.mark.parametrize("extent", [1e-40, 1e40])
-def test_thinning_knows_no_scale(extent):
-    points = egg(5000)
-    assert (spread_rows(points * extent, 1000) == spread_rows(points, 1000)).all()
 
 
 def test_equal_points_are_one():
@@ -452,15 +402,6 @@ def test_command_line_says_what_it_expects(here, capsys):
     assert cli.main(["egg.npy", "egg.ma", "--memory-limit", "-5"]) == cli.USAGE
     assert "Expected memory_limit from 0 to" in capsys.readouterr().err
     assert cli.main(["egg.npy", "egg.ma", "--above-limit", "swap"]) == cli.USAGE
-
-
-def test_words_of_the_limits_are_those_of_the_settings():
-    parser = argparse.ArgumentParser()
-    option_words.add_options(parser, MemoryLimit)
-    words = parser.parse_args(["--memory-limit", "7", "--above-limit", "thin"])
-    found = option_words.settings_from(words, MemoryLimit)
-    assert found == MemoryLimit(7, THIN)
-    assert option_words.settings_from(parser.parse_args([]), MemoryLimit) == MemoryLimit()
 
 
 # --- before, not after

@@ -44,7 +44,7 @@ ARM = """<mujoco model="Grün &amp; Söhne"><compiler meshdir="meshes" autolimit
 @pytest.fixture
 def arm(tmp_path):
     (tmp_path / "meshes").mkdir()
-    points, triangles = torus(1.0, 0.4, 48, 24)
+    points, triangles = torus(1.0, 0.4, 24, 12)
     rows = [("v", points), ("f", triangles + 1)]
     text = "".join(f"{word} {x} {y} {z}\n" for word, row in rows for x, y, z in row.tolist())
     (tmp_path / "meshes" / "ring.obj").write_text(text)
@@ -53,7 +53,7 @@ def arm(tmp_path):
 
 
 def run(*words):
-    return cli.main(["robot", *map(str, words), "--samples", "3000"])
+    return cli.main(["robot", *map(str, words), "--samples", "1000"])
 
 
 def test_what_may_collide_is_held_and_all_else_stays(arm, tmp_path, capsys):

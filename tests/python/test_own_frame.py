@@ -274,11 +274,6 @@ def test_moving_is_exact(seed):
     assert (np.abs(shape.points).max(axis=0) <= 2.0 * np.ptp(points, axis=0)).all()
 
 
-def test_solids_round_the_origin_stay():
-    shape, _ = placed("profile", 1, 0.0)
-    assert in_own_frame(shape)[0] is shape
-
-
 def test_coordinates_of_32_bits_are_told_by_their_numbers(medial):
     grid = np.array(box()[0], float) * 100.0 + 300_000.0
     assert not medial.are_single(grid) and own_origin(grid).any()

@@ -236,7 +236,7 @@ def pipe(sides, wall):
     return meshes.revolved([(1.0, 0.0), (1.0, 12.0), (1.0 - wall, 12.0), (1.0 - wall, 0.0)], sides)
 
 
-@pytest.mark.parametrize("sides, wall", [(13, 0.05), (15, 0.04), (18, 0.02), (24, 0.01)])
+@pytest.mark.parametrize("sides, wall", [(13, 0.05), (24, 0.01)])
 def test_a_thin_tube_of_few_flat_sides_takes_one_pass_in_pairs(sides, wall):
     """Its smooth surface leaves its walls, and edges of its flat faces that had no samples made loops."""
     found = library.compute(*pipe(sides, wall), side="inner")

@@ -187,15 +187,3 @@ def test_pockets_at_the_rim_of_an_opening(medial):
     for seed in range(3):
         settings = Settings(sampling=SamplingMode.SURFACE, samples=1500, seed=seed)
         assert compute(*bowl, settings).axis.level.betti == (1, 0, 0)
-
-
-@pytest.mark.parametrize("threads", [1, 3])
-@pytest.mark.parametrize("scale", [2.0**-40, 1.0, 2.0**40])
-def test_the_same_pieces_for_any_scale_and_threads(medial, scale, threads):
-    points, triangles = wedge(35)
-    found = medial.sample_surface(points, triangles, count=1500, mirrored_rows=0)
-    analysis = medial.MedialAnalysis(
-        scale * found.points, triangles, vertices=scale * points, threads=threads
-    )
-    plain = medial.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
-    assert np.array_equal(analysis.hierarchy().cells, plain.cells)

@@ -197,17 +197,6 @@ def test_faces_that_bound_nothing_are_told():
 # ---- what must not change it
 
 
-@pytest.mark.parametrize("sphere", [False, True])
-def test_order_changes_nothing(medial, sphere):
-    points = SHAPES["shell"].sample(2000, 0)
-    plain = poles(medial, points, bounding_sphere=sphere)
-    order = np.random.default_rng(0).permutation(len(points))
-    mixed = poles(medial, points[order], bounding_sphere=sphere)
-    edges = np.sort(order[mixed.edges], axis=1)
-    row = np.lexsort(edges.T[::-1])
-    assert np.array_equal(edges[row], plain.edges) and np.array_equal(mixed.side[row], plain.side)
-
-
 def test_bounding_sphere_leaves_the_inner_facets(medial):
     points = SHAPES["shell"].sample(2000, 0)
     plain, within = (poles(medial, points, bounding_sphere=sphere) for sphere in (False, True))

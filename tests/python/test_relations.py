@@ -222,6 +222,14 @@ def test_a_power_of_two_changes_the_unit_alone(medial, plain, name, scale):
         assert np.array_equal(large[key], np.asarray(plain(name)[key]) * scale**power), key
 
 
+@pytest.mark.parametrize("power", [-160, 150])
+@pytest.mark.parametrize("name", ["sides by normals", "hierarchy"])
+def test_so_does_one_at_the_ends_of_the_documented_range(medial, plain, name, power):
+    found = STAGES[name].run(medial, 2.0**power)
+    for key, unit in STAGES[name].powers.items():
+        assert np.array_equal(found[key], np.asarray(plain(name)[key]) * 2.0 ** (power * unit)), key
+
+
 @pytest.mark.parametrize("name", [*WATCHED, "buried"])
 def test_each_stage_is_watched_and_can_be_cancelled(medial, name):
     progress = medial.Progress()

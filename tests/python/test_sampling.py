@@ -95,17 +95,6 @@ def farthest_from_samples(samples, vertices):
     return tree.query(along.reshape(-1, 3))[0].max()
 
 
-def test_rims_of_a_cylinder(medial):
-    vertices, triangles = cylinder()
-    samples = medial.sample_surface(vertices, triangles, spacing=0.1)
-    assert len(samples.sharp_edges) == 64
-    assert not (samples.kind == CORNER).any()
-    assert farthest_from_samples(samples, vertices) <= 0.05 * (1 + 1e-9)
-    rim = samples.points[samples.kind == SHARP]
-    assert (vertices[0] == rim).all(axis=1).any()  # the loops start at their lowest rows
-    assert (vertices[32] == rim).all(axis=1).any()
-
-
 def test_prism_at_the_threshold_is_sharp_everywhere_or_nowhere(medial):
     """Twelve sides turn by 30 degrees, up to rounding: rounding must not choose some of the edges."""
     vertices, triangles = cylinder(12)
@@ -185,18 +174,6 @@ def test_slivers_along_an_edge_leave_it_sharp(medial):
 # --- invariance
 
 
-@pytest.mark.parametrize("scale", [1e-30, 1.0, 1e30])
-def test_rotated_and_scaled(medial, scale):
-    vertices, triangles = meshes.box((1, 1, 1))
-    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    samples = medial.sample_surface(vertices @ turn.T * scale, triangles, count=2000)
-    assert abs(len(samples.points) - 2000) <= 40
-    assert np.bincount(samples.kind)[CORNER] == 8 and len(samples.sharp_edges) == 12
-    back = samples.points / scale @ turn
-    assert np.allclose(np.abs(back / (1.0, 0.7, 0.4)).max(axis=1), 1)
-
-
 def test_seams_close(medial):
     """Every triangle with three vertices of its own is the same surface as with shared ones."""
     vertices, triangles = meshes.box()
@@ -206,15 +183,6 @@ def test_seams_close(medial):
     )
     assert np.bincount(torn.kind).tolist() == np.bincount(samples.kind).tolist()
     assert np.bincount(torn.kind, minlength=5)[BOUNDARY] == 0
-
-
-def test_repeated_triangles_count_once(medial):
-    vertices, triangles = meshes.icosphere(3)
-    twice = np.concatenate((triangles, triangles[:, [1, 2, 0]], triangles[:, ::-1]))
-    samples = medial.sample_surface(vertices, triangles, count=1000)
-    again = medial.sample_surface(vertices, twice, count=1000)
-    assert (samples.points == again.points).all()
-    assert again.area == samples.area and len(again.sharp_edges) == 0
 
 
 # --- smooth
@@ -279,74 +247,7 @@ def test_sharp_edges_have_one_curve_for_both_sides(medial):
     assert 1 - 1.2 * spacing < np.abs(side[:, 2]).max() <= 1 + 1e-12
 
 
-def test_smooth_plane_stays_plane(medial):
-    vertices, triangles = meshes.box((3, 2, 1))
-    samples = medial.sample_surface(vertices, triangles, count=3000, smooth=True)
-    half = vertices.max(axis=0)
-    assert np.allclose(np.abs(samples.points / half).max(axis=1), 1, atol=1e-12)
-
-
-# --- sizing
-
-
-def graded(places):
-    """Spacing from 0.02 at the top of the unit sphere to 0.2 at its bottom."""
-    return 0.02 * 10 ** ((1 - places[:, 2]) / 2)
-
-
-@pytest.mark.parametrize("most", [None, 3000])
-def test_sizes_are_followed(medial, most):
-    vertices, triangles = meshes.icosphere(4)
-    sites = meshes.icosphere(5)[0]
-    samples = medial.sample_surface(vertices, triangles, sizing=(sites, graded(sites)), count=most)
-    assert most is None or 0.95 * most <= len(samples.points) <= most
-    points, radius = samples.points, samples.radius
-    tree = cKDTree(points)
-    pairs = tree.query_pairs(radius.max(), output_type="ndarray")
-    apart = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
-    assert (apart >= radius[pairs].min(axis=1) * (1 - 1e-12)).all()
-    scale = (radius / graded(points)).mean()
-    assert np.allclose(radius / graded(points), scale, rtol=0.15)
-    assert most is not None or 0.7 < scale < 0.75
-    everywhere = distance.points_on_triangles(vertices[triangles], 100000, np.random.default_rng(0))
-    gap, nearest = tree.query(everywhere)
-    assert (gap <= 1.4 * np.maximum(radius[nearest], scale * graded(everywhere))).all()
-
-
-def test_a_step_of_the_sizes_is_graded(medial):
-    vertices, triangles = meshes.icosphere(4)
-    sites = meshes.icosphere(5)[0]
-    sizes = np.where(sites[:, 2] > 0, 0.02, 0.2)
-    samples = medial.sample_surface(vertices, triangles, sizing=(sites, sizes))
-    depth = np.maximum(0, -samples.points[:, 2])
-    spacing = samples.radius / samples.radius.min() * 0.02
-    assert (spacing <= 0.02 + 0.3 * 1.4 * (depth + 0.1)).all()
-    assert spacing.max() == pytest.approx(0.2, rel=0.01)
-
-
-def test_one_site_is_a_uniform_spacing(medial):
-    vertices, triangles = meshes.torus()
-    one = (np.zeros((1, 3)), np.array([0.1]))
-    samples = medial.sample_surface(vertices, triangles, sizing=one)
-    uniform = medial.sample_surface(vertices, triangles, spacing=0.1)
-    assert np.unique(samples.radius) == np.unique(uniform.radius)
-    assert len(samples.points) == pytest.approx(len(uniform.points), rel=0.03)
-
-
 # --- any mesh
-
-
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 10])
-def test_tiny_counts(medial, count):
-    assert len(medial.sample_surface(*meshes.icosphere(3), count=count).points) == count
-
-
-def test_one_triangle(medial):
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
-    samples = medial.sample_surface(vertices, np.array([[0, 1, 2]]), count=100)
-    assert np.bincount(samples.kind)[CORNER] == 3
-    assert abs(len(samples.points) - 100) <= 3
-    assert samples.area == 0.5
 
 
 def test_needles_and_flat_triangles(medial):
@@ -358,58 +259,6 @@ def test_needles_and_flat_triangles(medial):
 
 
 SOUPS = range(12)
-
-
-WIRE = """
-import importlib.util, resource, sys
-import numpy as np
-resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
-spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
-medial = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(medial)
-angle = np.arange(8) * np.pi / 4
-ring = np.column_stack([0.001 * np.cos(angle), 0.001 * np.sin(angle), 0 * angle])
-walls = [((i, j, 8 + j), (i, 8 + j, 8 + i)) for i, j in zip(range(8), [*range(1, 8), 0])]
-vertices = np.concatenate([ring, ring + [0, 0, 1]])
-triangles = np.array(walls, np.int32).reshape(-1, 3)
-sites = np.array([[0, 0, 0.2], [0, 0, 0.8]])
-print(len(medial.sample_surface(vertices, triangles, sizing=(sites, np.array([2e-4, 3e-4]))).points))
-"""
-
-
-def test_a_wire_needs_memory_for_its_samples_only(medial):
-    """Faces a thousand times as long as wide, and five thousand spacings long."""
-    from medial_axis.core.machine import native
-
-    command = [sys.executable, "-c", WIRE, str(native.file())]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert 50_000 < int(done.stdout) < 250_000
-
-
-FAR = """
-import importlib.util, resource, sys
-import numpy as np
-resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
-spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
-medial = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(medial)
-size = float(sys.argv[2])
-vertices, triangle = size * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]])
-sizing = np.zeros((1, 3)), np.array([0.01])
-print(len(medial.sample_surface(vertices, triangle, sizing=sizing, count=3000).points))
-"""
-
-
-@pytest.mark.parametrize("size", [1.0, 100.0, 10_000.0])
-def test_a_count_bounds_the_memory_too(medial, size):
-    """Up to 5 x 10^11 samples would be needed by the spacing alone."""
-    from medial_axis.core.machine import native
-
-    command = [sys.executable, "-c", FAR, str(native.file()), str(size)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert 2800 < int(done.stdout) <= 3000
 
 
 ENDS = """

@@ -156,58 +156,6 @@ def assert_brute_force(study, points, surface, analysis):
 # ---- a surface that is not made of the samples
 
 
-def samples_on(mesh, count=600, seed=4):
-    """Points of the triangles, none of them a vertex."""
-    return distance.points_on_triangles(mesh[0][mesh[1]], count, np.random.default_rng(seed))
-
-
-def soup(mesh):
-    """Every triangle has corners of its own."""
-    return mesh[0][mesh[1].ravel()], np.arange(mesh[1].size, dtype=np.int32).reshape(-1, 3)
-
-
-def with_unused_vertices(mesh):
-    """Rows that no triangle uses before, between and after the others."""
-    vertices = np.full((2 * len(mesh[0]) + 1, 3), 40.0)
-    vertices[1::2] = mesh[0]
-    return vertices, 2 * mesh[1] + 1
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_sides_of_a_separate_surface_equal_brute_force(study, name):
-    """The vertices are no samples, and the samples are no vertices."""
-    vertices, triangles = ALL[name]
-    if name == "one triangle":  # whose samples span no volume
-        return
-    points = samples_on(ALL[name])
-    analysis = analyse(study, points, triangles, vertices=vertices)
-    assert np.array_equal(analysis.samples, np.arange(len(points)))
-    assert analysis.boundary_edges == reference.boundary_edges(triangles)
-    assert analysis.closed == (name in CLOSED)
-    assert_brute_force(study, points, ALL[name], analysis)
-
-
-@pytest.mark.parametrize("name", ["torus", "exact icosphere", "bowl", "flipped faces", "cube"])
-def test_vertices_that_are_the_points_change_nothing(medial, name):
-    points, triangles = ALL[name]
-    plain = analyse(medial, points, triangles)
-    for surface in (ALL[name], soup(ALL[name]), with_unused_vertices(ALL[name])):
-        apart = analyse(medial, points, surface[1], vertices=surface[0])
-        assert apart.side.tobytes() == plain.side.tobytes()
-        assert (apart.closed, apart.boundary_edges) == (plain.closed, plain.boundary_edges)
-        assert medial.open_edges(*surface) == plain.boundary_edges
-
-
-def test_a_separate_surface_decides_automatic(medial):
-    """It may be smaller than any sample needs to be: one triangle is open, two back to back are closed."""
-    points, triangle = samples_on(ALL["sphere"]), np.array([[0, 1, 2]], np.int32)
-    both = np.concatenate((triangle, triangle[:, ::-1]))
-    source = lambda faces: medial.MedialAnalysis(points, faces, vertices=np.eye(3)).sides_from
-    assert source(triangle) == medial.SidesFrom.TIGHT_COCONE
-    assert source(both) == medial.SidesFrom.SURFACE
-    assert (medial.open_edges(np.eye(3), triangle), medial.open_edges(np.eye(3), both)) == (3, 0)
-
-
 @pytest.mark.parametrize(
     "vertices, triangles, word",
     [
@@ -225,13 +173,6 @@ def test_vertices_that_are_not_valid(medial, vertices, triangles, word):
         medial.MedialAnalysis(ALL["sphere"][0], triangles, vertices=vertices)
 
 
-def assert_inside(vertices, radius, points, triangles):
-    """Winding number > 1/2, or on the surface itself."""
-    bad = reference.winding_number(vertices, points, triangles) <= 0.5
-    if bad.any():
-        assert (distance.to_triangles(vertices[bad], points[triangles]) <= 1e-6 * radius[bad]).all()
-
-
 @pytest.mark.parametrize("name", ALL)
 def test_closed_and_boundary_edges(medial, name):
     points, triangles = ALL[name]
@@ -246,41 +187,3 @@ def test_when_nothing_tells_no_side_is_known(medial):
         analysis = medial.MedialAnalysis(points, faces, sides=medial.SidesFrom.NONE)
         assert (analysis.side == 0).all() and (analysis.extract(0.0, 0.0).side == 0).all()
         assert analysis.closed == (faces is triangles) and analysis.boundary_edges == 0
-
-
-@pytest.mark.parametrize("name", ["nested shell", "torus", "ellipsoid", "overlapping balls"])
-def test_sides_do_not_depend_on_the_bounding_sphere(medial, name):
-    points, triangles = ALL[name]
-    plain = analyse(medial, points, triangles)
-    bounded = analyse(medial, points, triangles, bounding_sphere=True)
-    sides = {tuple(e): s for e, s in zip(plain.edges.tolist(), plain.side.tolist())}
-    inner = [tuple(e) for e, s in zip(bounded.edges.tolist(), bounded.side.tolist()) if s == 1]
-    assert len(inner) > 100 and np.mean([sides.get(e) == 1 for e in inner]) > 0.99
-
-
-def test_winding_number_of_no_triangles_is_zero(medial):
-    found = medial.winding_number(np.zeros((3, 3)), np.eye(3), np.empty((0, 3), dtype=np.int32))
-    assert np.array_equal(found, np.zeros(3))
-
-
-@pytest.mark.parametrize(
-    "file, closed",
-    [
-        ("spot_low.obj", True),
-        ("3holes.off", True),
-        ("elephant-with-holes.off", False),
-        ("openscad-nonmanifold-crash.obj", None),
-        ("knot1.off", True),
-    ],
-)
-def test_sides_of_real_meshes(medial, data_file, file, closed):
-    points, triangles = meshes.read(data_file(file))
-    analysis = analyse(medial, points, triangles)
-    if closed is not None:
-        assert analysis.closed is closed
-    mesh = analysis.extract(side=medial.Side.INNER)
-    picked = np.random.default_rng(0).choice(
-        len(mesh.vertices), min(1500, len(mesh.vertices)), replace=False
-    )
-    assert len(picked) > 50
-    assert_inside(mesh.vertices[picked], mesh.radius[picked], points, triangles)

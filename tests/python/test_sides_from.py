@@ -5,10 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
-from support import meshes, rings
+from support import meshes
 from support.shapes import SHAPES
-from support.solids import SOLIDS
 
 pytestmark = pytest.mark.oracle
 
@@ -16,9 +14,6 @@ CLOUD = np.random.default_rng(0).random((50, 3))
 CLOSED = meshes.jitter(meshes.icosphere(3), 1e-3)
 OPEN = CLOSED[0], CLOSED[1][5:]
 OUTWARD = CLOSED[0] / np.linalg.norm(CLOSED[0], axis=1)[:, None]
-SAMPLED = {name: SHAPES[name] for name in SHAPES} | {
-    name: SOLIDS[name].shape for name in ("two balls", "genus 2", "genus 3")
-}
 
 
 def analysis_of(medial, points, triangles=None, sides="AUTOMATIC", **options):
@@ -62,96 +57,6 @@ def test_what_is_asked_for_is_used(medial, chosen):
     assert (analysis.tight_cocone is None) == (chosen != "TIGHT_COCONE")
     assert not analysis.closed and analysis.boundary_edges > 0
     assert (analysis.side == 0).all() == (chosen == "NONE")
-
-
-def test_sources_agree_on_a_ball(medial):
-    inner = {
-        name: inner_edges(medial, analysis_of(medial, *CLOSED, name, normals=OUTWARD))
-        for name in ("SURFACE", "NORMALS", "TIGHT_COCONE", "POLES")
-    }
-    for name in ("NORMALS", "TIGHT_COCONE", "POLES"):
-        assert len(inner[name] ^ inner["SURFACE"]) < 0.01 * len(inner["SURFACE"]), name
-
-
-def inner_edges(medial, analysis):
-    return set(map(tuple, analysis.edges[analysis.side == int(medial.Side.INNER)].tolist()))
-
-
-# ---- normals
-
-
-def settled_sides(study, points, shape):
-    """(e,) side of every facet by the exact inside test, and (e,) whether its vertices are off the surface."""
-    cells, _, centres = study.delaunay(points)
-    finite = (cells >= 0).all(axis=1)
-    spacing = cKDTree(points).query(points, 2)[0][:, 1]
-    field = np.where(finite, np.inf, -np.inf)
-    field[finite] = shape.field(centres[finite])
-    far = ~finite
-    far[finite] = np.abs(field[finite]) > spacing[cells[finite]].max(axis=1)
-    edges, side = rings.facet_sides(cells, finite & (field < 0.0))
-    return edges, side, rings.facet_sides(cells, far)[1] == 1
-
-
-@pytest.mark.parametrize("name", SAMPLED)
-def test_normals_give_the_exact_sides(study, name):
-    """Away from the surface; cavities too, which no flooding from infinity can see. Flipped they swap the sides."""
-    shape, rng = SAMPLED[name], np.random.default_rng(2)
-    points = shape.sample(9000 if name == "shell" else 3000, 1)  # its wall is thin
-    edges, side, settled = settled_sides(study, points, shape)
-    normals = shape.normals(points)
-    analysis = analysis_of(
-        study, points, normals=normals * 2.0 ** rng.integers(-9, 9, (len(points), 1))
-    )
-    assert np.array_equal(analysis.edges, edges)
-    assert np.array_equal(analysis.side[settled], side[settled])
-    assert (side[settled] == 1).sum() > 1000
-    flipped = analysis_of(study, points, normals=-normals)
-    swapped = settled & analysis.bounded
-    assert np.array_equal(flipped.side[swapped], np.array([0, 2, 1, 3])[side[swapped]])
-
-
-def test_a_zero_normal_has_no_vote(study):
-    shape, rng = SHAPES["torus"], np.random.default_rng(5)
-    points = shape.sample(3000, 1)
-    normals = shape.normals(points)
-    full = analysis_of(study, points, normals=normals)
-    normals[rng.random(len(points)) < 0.3] = 0.0
-    some = analysis_of(study, points, normals=normals)
-    _, side, settled = settled_sides(study, points, shape)
-    voters = (normals != 0.0).any(axis=1)[full.edges].any(axis=1)
-    assert voters.mean() > 0.85
-    assert np.array_equal(some.side[settled & voters], side[settled & voters])
-
-
-def test_normals_of_any_length_and_of_float32(medial):
-    points = SHAPES["ellipsoid"].sample(1000, 0)
-    normals = SHAPES["ellipsoid"].normals(points).astype(np.float32)
-    plain = analysis_of(medial, points, normals=normals.astype(float))
-    for other in (normals, normals * 1e-30, normals * 1e30, np.asfortranarray(normals)):
-        assert np.array_equal(analysis_of(medial, points, normals=other).side, plain.side)
-
-
-def test_normals_of_repeated_rows(medial):
-    points = SHAPES["ellipsoid"].sample(1000, 0)
-    normals = SHAPES["ellipsoid"].normals(points)
-    plain = analysis_of(medial, points, normals=normals)
-    twice = analysis_of(
-        medial, np.concatenate((points, points)), normals=np.concatenate((normals, normals))
-    )
-    assert twice.duplicates == len(points) and np.array_equal(twice.side, plain.side)
-
-
-@pytest.mark.parametrize("sphere", [False, True])
-def test_order_changes_nothing(medial, sphere):
-    points = SHAPES["knot"].sample(3000, 1)
-    normals, order = SHAPES["knot"].normals(points), np.random.default_rng(1).permutation(3000)
-    order = order[order < len(points)]
-    plain = analysis_of(medial, points, normals=normals, bounding_sphere=sphere)
-    mixed = analysis_of(medial, points[order], normals=normals[order], bounding_sphere=sphere)
-    edges = np.sort(order[mixed.edges], axis=1)
-    row = np.lexsort(edges.T[::-1])
-    assert np.array_equal(edges[row], plain.edges) and np.array_equal(mixed.side[row], plain.side)
 
 
 # ---- errors

@@ -10,7 +10,7 @@ from medial_axis.core.curves.ends import balls_of
 from medial_axis.core.curves.net import Net
 from medial_axis.core.curves.rules import Loops, clear_loops, open_loops, prune
 from medial_axis.core.curves.spread import graph_of, spread
-from medial_axis.core.errors import DegenerateInputError, ExportError, InvalidInputError, ReadError
+from medial_axis.core.errors import DegenerateInputError, InvalidInputError, ReadError
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.rig.bones import Bones, Stubs, bones_of
 from medial_axis.core.rig.names import names_of
@@ -101,34 +101,10 @@ def meeting_points(solid):
     return places[times > 2]
 
 
-@pytest.mark.turn
-@pytest.mark.parametrize("count", [8000, 16_000])
-def test_forks_at_other_densities(count):
-    solid = tubes.y_of_tubes()
-    found = of_tubes(solid, count).skeleton
-    (fork,) = found.points[found.degree > 2]
-    assert np.linalg.norm(fork) < 0.1 * min(solid.radii)
-
-
-def test_a_ball_is_one_point():
-    found = compute_skeleton(Shape(*meshes.icosphere(4)), Settings(), SkeletonSettings())
-    assert found.skeleton.count == 0 and len(found.skeleton.points) == 1
-    assert found.skeleton.radius[0] == pytest.approx(1.0, rel=0.01)
-    assert (found.parts.faces == -1).all()
-    with pytest.raises(DegenerateInputError, match="its skeleton is a point"):
-        compute_rig(Shape(*meshes.icosphere(4)), Settings(), SkeletonSettings())
-
-
 def test_a_shell_has_no_curve():
     vertices, triangles = meshes.nested_shell(4)
     with pytest.raises(DegenerateInputError, match="closed sheets"):
         compute_skeleton(Shape(vertices, triangles), Settings(), SkeletonSettings())
-
-
-def test_torus_is_one_loop_without_end():
-    found = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings()).skeleton
-    assert (found.tips, found.loops, found.count) == (0, 1, 1)
-    np.testing.assert_allclose(np.hypot(found.points[:, 0], found.points[:, 1]), 1.0, atol=0.01)
 
 
 def test_a_plate_has_few_ends():
@@ -218,12 +194,6 @@ def test_loops_are_kept_or_opened_by_choice():
             1,
         )
         assert found.skeleton.length > 0.9 * ring.length
-
-
-@pytest.mark.turn
-def test_terraced_scans_get_few_ends(data_file):
-    shape, _ = read_shape(data_file("liver.ply"))
-    assert compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton.tips <= 24
 
 
 def ends_of(skeleton):
@@ -415,12 +385,6 @@ def test_two_thick_bones_share_at_most_half_of_each():
     assert 0.5 < weight[2, 1] < 1.0
 
 
-def test_two_thin_bones_share_as_far_as_the_radius_of_their_joint():
-    weight = weights_along([0.44, 0.46, 0.54, 0.56], radius=0.1)
-    assert (weight[[0, 3], [1, 2]] == 1.0).all()
-    assert (weight[[1, 2], [1, 2]] < 1.0).all()
-
-
 def test_a_loop_closes_where_it_is_farthest_from_the_root():
     """Both ways round the ring from its node to where they meet are equally long."""
     points = np.array([(0, 0, 0), (4, 0, 0), (4, 4, 0), (3.4, 4.8, 0), (2.6, 5.4, 0)], float)
@@ -570,24 +534,6 @@ def test_swc_is_a_tree_of_all_points(two_rings_and_a_y, tmp_path):
         )
         closing = [line for line in lines if "closes a loop" in line]
         assert len(closing) == found.skeleton.loops
-
-
-def test_obj_has_a_line_for_each_branch(two_rings_and_a_y, tmp_path):
-    for found in two_rings_and_a_y:
-        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.obj")
-        words = [line.split() for line in path.read_text().splitlines()]
-        points = np.array([line[1:] for line in words if line[0] == "v"], float)
-        np.testing.assert_array_equal(points, found.skeleton.points)
-        lines = [[int(word) - 1 for word in line[1:]] for line in words if line[0] == "l"]
-        assert lines == [branch.tolist() for branch in found.skeleton.branches]
-
-
-def test_unknown_extension_leaves_nothing(two_rings_and_a_y, tmp_path):
-    with pytest.raises(ExportError, match=r"\.json, \.csv or \.vtp, found 'a\.fbx'"):
-        export_skeleton(
-            two_rings_and_a_y[0].skeleton, two_rings_and_a_y[0].parts, tmp_path / "a.fbx"
-        )
-    assert not list(tmp_path.iterdir())
 
 
 def test_command_line(tmp_path, capsys):
@@ -744,13 +690,6 @@ def test_hanging_loops_join_no_ends():
     assert net.load.sum() == 9.0 and net.load[:4].sum() == 8.0
 
 
-def test_genuine_loops_stay_however_thin_they_are():
-    net = net_of(*ladder(), [0.5] * 6 + [0.01])
-    assert net.loops() == 2
-    assert clear_loops(net, np.full(7, 0.1), genuine=2).cut == 0
-    assert clear_loops(net, np.full(7, 0.1), genuine=1).cut == 1 and net.loops() == 1
-
-
 def test_loops_of_closed_faces_stay():
     """The samples of a thin ring are as far apart as it is thick."""
     points, triangles = meshes.torus(1.0, 0.04, 160, 24)
@@ -848,12 +787,6 @@ def test_radii_are_of_the_ball_that_fits_and_lines_stay_inside(data_file, name):
     np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
     places, _ = places_of(found, steps=4)
     assert windings(places, shape).min() > 0.5
-
-
-def test_radii_of_a_torus_are_those_of_its_tube():
-    shape = Shape(*meshes.torus())
-    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
-    np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
 
 
 def test_lines_are_in_the_middle_of_a_body(data_file):

@@ -84,30 +84,6 @@ def test_the_surface_as_separate_samples_see_it(medial):
     assert topology.volume(points, found) == pytest.approx(volume, 0.02)
 
 
-def test_a_bounding_sphere_is_no_part_of_the_solid(medial):
-    """The surface may be larger than the sphere: its inside then contains the sphere."""
-    vertices, triangles = meshes.icosphere(2, 10.0)
-    points = SHAPES["ellipsoid"].random_sample(500, 1)
-    analysis = medial.MedialAnalysis(points, triangles, vertices=vertices, bounding_sphere=True)
-    found = analysis.solid_triangles()
-    assert len(found) and found.min() >= 0 and found.max() < len(points)
-    assert topology.is_oriented(found)
-
-
-def test_duplicates_and_order_of_rows(medial):
-    points, triangles = BALL
-    order = np.random.default_rng(0).permutation(2 * len(points))
-    rows = np.concatenate((points, points))[order]
-    place = np.argsort(order).astype(np.int32)
-    plain = medial.MedialAnalysis(points, triangles).solid_triangles()
-    mixed = medial.MedialAnalysis(rows, place[triangles])
-    found = mixed.solid_triangles()
-    assert np.isin(found, mixed.samples).all()
-    assert set(map(frozenset, (order[found] % len(points)).tolist())) == set(
-        map(frozenset, plain.tolist())
-    )
-
-
 def test_no_sides_no_solid(medial):
     analysis = medial.MedialAnalysis(BALL[0], sides=medial.SidesFrom.NONE)
     with pytest.raises(medial.InvalidInputError, match=r"^Expected .*found.*NONE; choose"):
@@ -156,22 +132,6 @@ def test_buried_equals_brute_force(medial, name):
     assert found.dtype == bool and np.array_equal(found, inside[0] == inside[1])
 
 
-@pytest.mark.parametrize(
-    "name, share",
-    [
-        ("ball", 0.0),
-        ("shell", 0.0),
-        ("inside out", 1.0),
-        ("ball in a ball", 0.5),
-        ("sheet", 1.0),
-        ("bowl", 0.0),
-    ],
-)
-def test_share_that_is_buried(medial, name, share):
-    points, normals = centres_and_normals(SOUPS[name])
-    assert medial.buried(points, normals, 1e-3, *SOUPS[name]).mean() == share
-
-
 def test_only_the_wall_inside_is_buried(medial):
     points, normals = centres_and_normals(SOUPS["wall inside"])
     found = medial.buried(points, normals, 1e-3, *SOUPS["wall inside"])
@@ -195,20 +155,6 @@ def test_buried_at_vertices_and_edges(medial):
         medial.buried(points[order], normals[order], 1e-3, *mesh, threads=1), found[order]
     )
     assert np.array_equal(medial.buried(points, normals, 1e-3, *mesh, threads=3), found)
-
-
-def test_zero_normals_tell_nothing(medial):
-    points, normals = centres_and_normals(SHEET)
-    normals[1] = 0
-    found = medial.buried(points, normals, 1e-3, *SHEET)
-    assert np.array_equal(found, [True, False, True, True])
-    assert len(medial.buried(points[:0], normals[:0], 1e-3, *SHEET)) == 0
-
-
-def test_duplicate_vertices_close_a_surface(medial):
-    points, normals = centres_and_normals(BALL)
-    soup = BALL[0][BALL[1].ravel()], np.arange(BALL[1].size, dtype=np.int32).reshape(-1, 3)
-    assert not medial.buried(points, normals, 1e-3, *soup).any()
 
 
 POINTS, NORMALS = centres_and_normals(BALL)

@@ -100,11 +100,6 @@ def test_round_ends_gain_with_the_rest():
     assert found.before.minimum < 0.76 and found.after.minimum > 0.87
 
 
-def test_a_thick_solid_stays():
-    found = thickened(block(1.0, 0.7, 0.4))
-    assert not found.moves.any() and not found.left.patches
-
-
 def test_what_is_far_from_thin_walls_stays():
     """A fin on a cube: the cube moves within the blend only."""
     mesh = finer(thin_solids.fin(0.01).mesh, 0.05)
@@ -198,11 +193,6 @@ def test_the_reason_why_something_is_still_thin_is_said(moved, met, reason):
     (said,) = _left_over(left, moved, met)
     assert reason in said
     assert not _left_over(replace(left, share=0.0009), moved, met)  # it would read as 0.0 %
-
-
-def test_walls_of_a_wide_slot_get_the_limit():
-    found = thickened(turned(slot(0.2)))
-    assert not found.left.patches and not found.warnings
 
 
 def test_faces_that_are_thin_in_part_ask_for_a_subdivision():
@@ -328,11 +318,3 @@ def test_open_meshes_and_no_limit_are_refused():
         thickened((points, triangles[:-1]))
     with pytest.raises(InvalidInputError, match="Expected a limit above 0"):
         thickened((points, triangles), limit=0.0)
-
-
-def test_scale_changes_nothing_but_the_unit():
-    mesh = turned(thin_solids.profile_t(0.01).mesh)
-    moves = thickened(mesh).moves
-    for scale in (2.0**-20, 2.0**20):
-        scaled = thickened((mesh[0] * scale, mesh[1]), limit=LIMIT * scale).moves
-        np.testing.assert_array_equal(scaled, moves * scale)

@@ -120,12 +120,6 @@ def test_a_tapered_capsule_of_a_cone_is_smaller(medial):
     assert sloping.min() < 0.6 * straight.min() and sloping.max() < 1.05 * straight.max()
 
 
-@pytest.mark.parametrize("places", [np.zeros((1, 3)), np.ones((5, 3)), np.eye(3)[:2]])
-def test_few_places_have_a_capsule(medial, places):
-    ends, radii = medial.least_capsules(places, np.zeros(len(places), np.int32), count=1)
-    assert np.isfinite(ends).all() and 0.0 <= radii.max() < 1.0
-
-
 @pytest.mark.parametrize(
     ("group", "words"),
     [

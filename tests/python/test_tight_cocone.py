@@ -108,22 +108,6 @@ def far_cells(study, points, shape):
     return finite[far], centres[finite[far]]
 
 
-@pytest.mark.parametrize("name, n", ALL)
-def test_cells_off_the_surface_have_the_right_side(study, surface_of, name, n):
-    points, shape = samples(name, n), SOLIDS[name].shape
-    rows, centres = far_cells(study, points, shape)
-    inside = shape.inside(centres)
-    assert inside.sum() > 0.5 * n
-    wanted = np.where(inside, int(study.Side.INNER), int(study.Side.OUTER))
-    assert np.array_equal(surface_of(name, n).cell_side[rows], wanted)
-
-
-@pytest.mark.parametrize("name, n", CASES)
-def test_dense_smooth_samples_are_flat_and_good(surface_of, name, n):
-    surface = surface_of(name, n)
-    assert surface.flat.mean() > 0.98 and surface.good.mean() > 0.98
-
-
 # ---- the same inside for the medial axis
 
 
@@ -188,32 +172,6 @@ def assert_same(a, b, arrays=ARRAYS):
     assert [getattr(a, name) for name in COUNTS] == [getattr(b, name) for name in COUNTS]
 
 
-@pytest.mark.parametrize("scale", [1e-6, 2.0**-10, 1e3, 1e6])
-@pytest.mark.parametrize("name", ["torus", "ellipsoid"])
-def test_scale(medial, surface_of, name, scale):
-    assert_same(surface_of(name, 2000), medial.TightCocone(samples(name, 2000) * scale))
-
-
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("name", ["torus", "ellipsoid"])
-def test_rotation_and_shift(medial, surface_of, name, seed):
-    """The cells come in another order then."""
-    moved = samples(name, 2000) @ inputs.rotation(seed).T + (1.0, -2.0, 3.0)
-    arrays = tuple(name for name in ARRAYS if name != "cell_side")
-    assert_same(surface_of(name, 2000), medial.TightCocone(moved), arrays)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_permutation(medial, surface_of, seed):
-    points, plain = samples("torus", 2000), surface_of("torus", 2000)
-    order = np.random.default_rng(seed).permutation(len(points))
-    mixed = medial.TightCocone(points[order])
-    turned = lowest_first(order[mixed.triangles])
-    assert np.array_equal(turned[np.lexsort(turned.T[::-1])], plain.triangles)
-    for name in ("flat", "good", "on_surface"):
-        assert np.array_equal(getattr(mixed, name), getattr(plain, name)[order])
-
-
 def test_repeated_rows_are_one_sample(medial, surface_of):
     points, plain = samples("torus", 2000), surface_of("torus", 2000)
     repeated = medial.TightCocone(np.concatenate((points, points[:300])))
@@ -223,13 +181,6 @@ def test_repeated_rows_are_one_sample(medial, surface_of):
 
 
 # ---- other input
-
-
-def test_two_far_clusters(medial):
-    ball = samples("sphere", 2000)
-    surface = medial.TightCocone(np.concatenate((ball, ball + np.array([1e4, 3e3, 0.0]))))
-    assert topology.components(surface.triangles) == 2 and topology.euler(surface.triangles) == 4
-    assert surface.on_surface.all() and surface.nonmanifold_vertices == 0
 
 
 def cylinder(around=40, up=20):
@@ -264,14 +215,6 @@ def test_grids(study, name, turned):
     is_corner = (np.abs(GRIDS["box"]) == GRIDS["box"].max(axis=0)).all(axis=1)
     assert (surface.on_surface | is_corner).all() if name == "box" else surface.on_surface.all()
     assert (~surface.on_surface).sum() <= 4
-
-
-@pytest.mark.parametrize("layers", [2, 3, 5])
-def test_coplanar_layers(study, layers):
-    points = inputs.grid((8, 7, layers))
-    surface = study.TightCocone(points)
-    assert_watertight(points, surface)
-    assert_between_inner_and_outer_cells(study, points, surface)
 
 
 def test_an_open_surface_is_closed(medial):

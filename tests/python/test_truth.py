@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial import cKDTree
 from support import distance, meshes, topology
 from support.shape_meshes import MESHED, SHARP
-from support.shapes import MORE_SHAPES, SHAPES, Prolate, Shell, cylinder, frustum
+from support.shapes import MORE_SHAPES, SHAPES
 
 pytestmark = pytest.mark.oracle
 
@@ -95,80 +95,6 @@ def test_random_samples_lie_on_the_surface_evenly(name):
             )
 
 
-# --- closed forms
-
-
-def test_a_tall_cylinder_has_a_segment_and_two_cones():
-    """|z| <= H - R, and 45 degrees from each rim to its apex: radius R there, R - rho on the cones."""
-    radius, half = 0.5, 1.0
-    segments = {
-        tuple(map(tuple, np.sort(np.abs(s), axis=0))) for s in _segments(radius, radius, half)
-    }
-    assert segments == {((0, 0.5), (0.5, 1.0)), ((0, 0.5), (0, 0.5))}
-    shape = cylinder(radius, half)
-    on_cone = np.array([[0.3, 0.0, 0.8], [0.0, -0.1, -0.6]])
-    assert shape.axis_distance(on_cone).max() < 1e-12
-    assert np.allclose(shape.axis_radius(on_cone), [0.2, 0.4])
-    assert np.allclose(shape.axis_radius(np.array([[0.0, 0.0, 0.4]])), radius)
-
-
-def test_a_flat_cylinder_has_a_disc_and_two_cones():
-    """rho <= R - H at z = 0, and from there to the rims: radius H on the disc."""
-    segments = {tuple(map(tuple, s)) for s in _segments(1.0, 1.0, 0.4)}
-    assert segments == {
-        ((0, 0), (0.6, 0)),
-        ((0.6, 0), (1, 0.4)),
-        ((0.6, 0), (1, -0.4)),
-    }
-    assert np.allclose(cylinder(1.0, 0.4).axis_radius(np.array([[0.1, 0.3, 0.0]])), 0.4)
-
-
-def _segments(bottom, top, half):
-    return np.round(frustum(bottom, top, half).axis_segments, 12) + 0.0
-
-
-@pytest.mark.parametrize("bottom, top, half", [(1.0, 0.5, 0.8), (0.9, 0.3, 1.5), (0.8, 0.0, 0.8)])
-def test_a_tall_frustum_has_a_segment_between_its_two_inscribed_balls(bottom, top, half):
-    """The balls that touch an end and the wall all round have radius bottom tan(base angle / 2), and likewise."""
-    base = np.arctan2(2 * half, bottom - top)
-    low, high = bottom * np.tan(base / 2), top * np.tan((np.pi - base) / 2)
-    assert low + high < 2 * half
-    ends = np.array([[0, 0, low - half], [0, 0, half - high]])
-    shape = frustum(bottom, top, half)
-    assert shape.axis_distance(ends).max() < 1e-12
-    assert np.allclose(shape.axis_radius(ends), [low, high], atol=1e-12)
-    on_z = [s for s in shape.axis_segments if np.allclose(s[:, 0], 0)]
-    assert len(on_z) == 1 and np.allclose(np.sort(on_z[0][:, 1]), ends[:, 2])
-
-
-@pytest.mark.parametrize("bottom, top, half", [(1.0, 0.7, 0.3), (2.0, 1.9, 0.2)])
-def test_a_flat_frustum_has_a_disc_halfway(bottom, top, half):
-    """Its radius is bottom - half / tan(base angle / 2): there the ball between the ends touches the wall."""
-    base = np.arctan2(2 * half, bottom - top)
-    rim = bottom - half / np.tan(base / 2)
-    shape = frustum(bottom, top, half)
-    assert shape.axis_distance(np.array([[rim, 0, 0], [0, 0.5 * rim, 0]])).max() < 1e-12
-    assert shape.axis_distance(np.array([[rim + 0.01, 0, 0]])).min() > 1e-3
-    assert np.allclose(shape.axis_radius(np.array([[0, rim, 0], [0, 0, 0]])), half)
-
-
-def test_a_prolate_spheroid_has_a_segment():
-    """|x| <= (a^2 - c^2) / a with radius c sqrt(1 - x^2 / (a^2 - c^2)): c^2 / a at its ends."""
-    shape = Prolate(1.0, 0.5, 0.5)
-    ends = shape.rim_points(2)
-    assert np.allclose(ends[:, 0], [-0.75, 0.75])
-    assert np.allclose(shape.axis_radius(ends), 0.25)
-    assert np.allclose(-shape.field(ends), 0.25, atol=1e-6)
-
-
-def test_a_spherical_shell_has_the_sphere_halfway():
-    shape = Shell(0.8, 0.8, 0.8, 0.4)
-    points = shape.random_sample(1000)
-    assert set(np.round(np.linalg.norm(points, axis=1), 9)) == {0.6, 1.0}
-    assert np.allclose(np.linalg.norm(shape.axis_points(100), axis=1), 0.8)
-    assert shape.area == pytest.approx(4 * np.pi * (0.36 + 1.0))
-
-
 # --- the meshes
 
 
@@ -199,10 +125,6 @@ def test_meshes_face_outward_and_fill_the_shape(name):
     assert topology.volume(vertices, triangles) == pytest.approx(
         np.mean(shape.inside(x)) * np.prod(high - low), rel=0.03
     )
-
-
-def test_sharp_shapes_have_meshes():
-    assert set(SHARP) < set(MESHED)
 
 
 def test_weld_joins_equal_corners_and_drops_what_has_no_area_left():

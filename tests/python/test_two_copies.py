@@ -7,43 +7,6 @@ import sys
 from pathlib import Path
 
 import medial_axis
-from medial_axis.core.machine import native
-
-TWO_MODULES = """
-import importlib.util, shutil, sys
-from pathlib import Path
-import numpy as np
-
-def load(number):
-    path = Path(sys.argv[2], f"copy{number}.so")
-    shutil.copy(sys.argv[1], path)
-    spec = importlib.util.spec_from_file_location(f"copy{number}._medial", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-points = np.random.default_rng(0).normal(size=(2000, 3))
-points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
-a, b = load(1), load(2)
-axes = [m.MedialAnalysis(points).extract(side=m.Side.INNER) for m in (a, b, a)]
-assert len(axes[0].theta) > 100
-assert len({x.vertices.tobytes() for x in axes}) == 1
-assert a.Side is not b.Side and type(axes[0]) is a.MedialMesh and type(axes[1]) is b.MedialMesh
-
-def error_of(module, wrong, progress=None):
-    try:
-        module.MedialAnalysis(wrong, progress=progress)
-    except Exception as error:
-        return type(error)
-
-for module in (a, b, a):
-    assert error_of(module, points[:3]) is module.DegenerateInputError
-    assert error_of(module, points[:, :2]) is module.InvalidInputError
-    progress = module.Progress()
-    progress.cancel()
-    assert error_of(module, points, progress) is module.Cancelled
-print("both work")
-"""
 
 # Two packages, each with errors of its own.
 TWO_PACKAGES = """
@@ -77,10 +40,6 @@ def run(code, *words):
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "both work\n"
-
-
-def test_two_files_of_the_module_live_side_by_side(tmp_path):
-    run(TWO_MODULES, native.file(), tmp_path)
 
 
 def test_two_packages_live_side_by_side(tmp_path):

@@ -86,34 +86,6 @@ def test_hashes_of_systems_must_be_equal_but_for_wraps(tmp_path, other, equal):
     assert (code == 0) is equal, said
 
 
-def test_hashes_of_linux_that_are_missing_are_no_success(tmp_path):
-    put(tmp_path, {"hashes-windows/hashes.txt": HASHES})
-    assert run(step("systems", "same_bytes", "diff"), tmp_path)[0] != 0
-
-
-def test_modules_for_macs_of_all_pythons_reach_the_zips(tmp_path):
-    put(tmp_path, {f"{a}/{name}": a for a, names in MODULES.items() for name in names})
-    stand_in(
-        tmp_path,
-        "lipo",
-        'echo "$@" >> asked; while [ "$1" != -output ]; do shift; done; echo > "$2"',
-    )
-    for tool in ("strip", "codesign"):
-        stand_in(tmp_path, tool)
-    for command in commands("systems", "mac_modules"):
-        code, said = run(command, tmp_path)
-        assert code == 0, said
-    asked = (tmp_path / "asked").read_text().splitlines()
-    images = [
-        f"modules-macos-{name}-3.11/_medial.cpython-311-darwin.so" for name in ("arm64", "x64")
-    ]
-    assert asked[0] == f"-create {' '.join(images)} -output both/_medial.cpython-311-darwin.so"
-    assert sorted(path.name for path in (tmp_path / "both").iterdir()) == [
-        f"_medial.cpython-{digits}-darwin.so" for digits in ("311", "313")
-    ]
-    assert len(asked) == 5, "each is stripped and signed"
-
-
 def test_modules_of_all_systems_are_packed(tmp_path):
     named = {**MODULES, "modules-macos": ["_medial.cpython-311-darwin.so"]}
     put(tmp_path, {f"modules/{a}/{name}": a for a, names in named.items() for name in names})
@@ -134,20 +106,6 @@ def zips(tmp_path, monkeypatch):
     for folder in ("dist", "zips"):
         put(tmp_path, {f"{folder}/{name}": name for name in names})
     return names
-
-
-def test_blenders_tests_get_the_zip_for_all_systems(tmp_path, zips):
-    stand_in(tmp_path, "python", 'for word in "$@"; do echo "$word" >> asked; done')
-    code, said = run(step("systems", "blender", "tests/addon/run.py"), tmp_path)
-    assert code == 0, said
-    asked = (tmp_path / "asked").read_text().splitlines()
-    assert asked == ["tests/addon/run.py", "--zip", f"dist/{zips[0]}", "--bpy", "python"]
-
-
-def test_checksums_agree_with_all_zips(tmp_path, zips):
-    assert run(step("systems", "zips", "SHA256SUMS"), tmp_path)[0] == 0
-    code, said = run("cd dist && sha256sum --check --strict SHA256SUMS", tmp_path)
-    assert code == 0 and said.count(": OK\n") == len(zips) == 7
 
 
 def test_a_release_has_zips_wheels_and_hashes(tmp_path, zips):

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Flags, Floats
+from ..shape.triangles import FEW
 
 _CLEAR = 3.0  # a clear gap: what stays is so many times as thick as what goes; chosen: unseen
-_SEEN, _HALF = 0.01, 0.5  # the least and the largest share of the area that goes; chosen: unseen
+_HALF = 0.5  # the largest share of the area that goes; derived: most of it stays
 
 
 def gap_of(hierarchy: Any, area: Floats) -> float | None:
@@ -52,6 +53,6 @@ def length_in_gap(values: Floats, weights: Floats, is_meant: Flags) -> float | N
     share = gone / weights[goes].sum()
     may_go = found[:-1] < values[goes & is_meant].min(initial=math.inf)
     ratio = found[1:] / found[:-1]
-    ratio[~may_go | (share < _SEEN) | (share > _HALF)] = 0.0
+    ratio[~may_go | (share < FEW) | (share > _HALF)] = 0.0
     below = int(ratio.argmax())
     return math.sqrt(found[below] * found[below + 1]) if ratio[below] >= _CLEAR else None

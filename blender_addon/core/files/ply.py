@@ -30,9 +30,7 @@ _TYPES = {
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _POSITION, _NORMAL = ("x", "y", "z"), ("nx", "ny", "nz")
 _CORNERS = ("vertex_indices", "vertex_index")
-_LONGEST = (
-    1 << 16
-)  # a line of the header is read up to this many bytes; other files may have no lines
+_LONGEST = 1 << 16  # bytes of a line of the header that are read; other files may have no lines
 _MOST_ROWS = 10**18  # no file holds as many, and larger counts do not fit into 64 bits
 
 

@@ -27,7 +27,7 @@ from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, Thickness
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
 from ..shape.solid_faces import SolidFaces, sharp_angle_of
-from ..shape.triangles import unit_normals
+from ..shape.triangles import FEW, unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough
 from ..united import united
@@ -47,7 +47,7 @@ _SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's r
 _PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
 _CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
-_MOST = 0.99  # where less of the volume is sheet, a warning says so; chosen: unseen
+_MOST = 1.0 - FEW  # where less of the volume is sheet, a warning says so; derived: FEW
 _DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: midsurface
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Floats, Ints, Longs
 from ..axis.polygon_triangles import polygon_triangles
 
-TRIFLE = 1e-3  # of a thickness or an area: so small a share counts for nothing; chosen: unseen
+TRIFLE = 1e-3  # of a length or an area: so small a share counts for nothing; chosen: unseen
 ROUNDING = 1e-6  # of a length: so small a share is none; derived: rounding
 
 

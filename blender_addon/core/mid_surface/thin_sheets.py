@@ -16,6 +16,7 @@ from ..axis.structure import Structure
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
 from ..united import united
+from .sheet_faces import TRIFLE
 
 # Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
 # the way along the sheet.
@@ -24,7 +25,6 @@ _TAPER = 0.2  # the same at a sharp edge; steeper facets there are those of a ri
 _NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too; chosen: unseen
 _EVEN = 0.15  # of its size: radii of a facet that differ more do not tell how its sheet goes on; chosen: midsurface
 _SLIVER = 0.02  # a facet with less area of a disc of its perimeter has no slope; chosen: unseen
-_STRIP = 1e-3  # of its radius: a facet that is narrower has no width; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ def _strips(axis: MedialAxis, areas: Floats, walls: Flags) -> Flags:
     starts, corners = axis.face_offsets[:-1], axis.face_vertices
     sizes = np.diff(axis.face_offsets)
     radius = np.add.reduceat(axis.radius[corners], starts) / sizes
-    narrow = 2.0 * areas <= _STRIP * radius * _around(axis)
+    narrow = 2.0 * areas <= TRIFLE * radius * _around(axis)
     at_wall = np.zeros(len(axis.vertices), bool)
     at_wall[corners[np.repeat(walls & ~narrow, sizes)]] = True
     return np.asarray(narrow & np.logical_and.reduceat(at_wall[corners], starts))

@@ -15,7 +15,8 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, ThicknessSettings
 from ..shape.shape import Shape
-from ..thickness.measurement import UNKNOWN, Measurement
+from ..shape.triangles import FEW
+from ..thickness.measurement import Measurement
 from ..thickness.thickness import measure_thickness
 from ..thickness.thin_parts import find_thin_parts
 from ..thickness.write_thickness import THICKNESS_FORMATS, export_thickness, summary_of
@@ -91,7 +92,7 @@ examples:
     def exit_code(self, report: dict[str, Any]) -> int:
         if report["patches"]:
             return THIN
-        return UNMEASURED if report["share_unmeasured"] > UNKNOWN else DONE
+        return UNMEASURED if report["share_unmeasured"] > FEW else DONE
 
     def page(self, path: str) -> ThicknessPage:
         """Return a page for all outputs of a run."""

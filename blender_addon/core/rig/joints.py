@@ -14,13 +14,10 @@ from ..arrays import Floats, Longs
 from ..small_matrices import dot
 from .tree import Chain
 
-ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius; chosen: unseen
+ERROR = 0.5  # a bone may deviate from its curve, or a chain from a plane, by this share of the radius; chosen: unseen
 LONG = 10.0  # a bone is at most this many mean radii long, as forearms are; chosen: unseen
 _THIN = 0.5  # a ball counts as no thinner than this share of the mean of the chain; chosen: rig
-_STEPS, _MOST_STEPS = (
-    48,
-    192,
-)  # joints are looked for at this many steps; 2, 3, 4, 6 and 8 divide these
+_STEPS, _MOST_STEPS = 48, 192  # joints are looked for at this many; 2, 3, 4, 6 and 8 divide them
 
 
 def joints_of(chain: Chain, begin: float, count: int = 0) -> Floats:

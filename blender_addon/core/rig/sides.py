@@ -14,12 +14,12 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Longs
 from ..small_matrices import dot, length_of
+from .joints import ERROR
 from .tree import Chain
 
 _ALIKE = 1.6  # lengths of like limbs outside their forks, and mean radii, differ by at most this factor; chosen: unseen
 _STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork; chosen: unseen
-_WITHIN = 0.5  # a chain lies in the plane if it is, in the mean, within this share of its radius; chosen: unseen
-_ENOUGH = 0.5  # of the length that lies aside of the plane is in pairs; chosen: unseen
+_ENOUGH = 0.5  # of the length that lies aside of the plane is in pairs; derived: most of it
 _STRAIGHT = 0.5  # the weight of starts that are off, in radii, against limbs without a partner; chosen: unseen
 _AS_GOOD = 0.1  # the plane across an axis is taken if it costs so little more than the best one; chosen: unseen
 _ASLANT = 0.5  # a plane across no axis may cost this much of what others may; chosen: unseen
@@ -154,7 +154,7 @@ def _paired(tree: list[Chain], normal: Floats, origin: Floats) -> Sides:
         if partner[a] < 0:
             away = np.abs(dot(chain.points - origin, normal))
             above = chain.parent < 0 or within[chain.parent]
-            within[a] = above and away.mean() <= _WITHIN * chain.radius.mean()
+            within[a] = above and away.mean() <= ERROR * chain.radius.mean()
     return Sides(normal, origin, partner, within, True)
 
 

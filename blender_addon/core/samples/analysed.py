@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
+from ..shape.triangles import FEW
 from .density import HOLE, Density
 from .levels import Levels
 from .walls import Places, Walls
@@ -19,7 +20,6 @@ from .walls import Places, Walls
 # Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
 # the largest one that counts.
 _LARGEST = 3.0  # chosen: unseen
-_BURIED = 0.01  # so large a share of the samples may be buried, for foils are too thin to tell; chosen: unseen
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ class Analysed(Samples):
     @cached_property
     def overlaps(self) -> bool:
         """Whether parts of the surface bound nothing, so that the numbers of the faces mean nothing."""
-        return self.buried > _BURIED * len(self.points)
+        return self.buried > FEW * len(self.points)
 
     @cached_property
     def walls_are_close(self) -> bool:

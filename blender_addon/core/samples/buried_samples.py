@@ -17,6 +17,7 @@ from ..shape.nearness import near
 from ..shape.shape import Shape
 from ..shape.triangles import some_of, unit_normals
 from ..small_matrices import dot
+from .density import REACH
 
 # The distance from the surface at which its two sides are tested, as a share of the spacing.
 _OFF = 1e-3  # derived: rounding
@@ -26,7 +27,6 @@ _CLEFT = 0.25  # chosen: unseen
 # Samples in pairs across gaps resolve clefts, too, unless more than this share of them is buried where parts overlap.
 _FEW = 0.002  # chosen: unseen
 _ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate; derived: rounding
-_BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings; chosen: unseen
 
 
 def find_bare(
@@ -65,7 +65,7 @@ def _outside_clefts(
 ) -> Flags:
     """Mark the samples that are neither buried nor in clefts next to buried ones, (n,)."""
     with native.own_errors() as module:
-        beside = np.flatnonzero(near(feet, feet[buried], _BESIDE * spacing))
+        beside = np.flatnonzero(near(feet, feet[buried], REACH * spacing))
         outward = feet[beside] + _CLEFT * spacing * normals[beside]
         above = module.winding_number(outward, shape.points, shape.triangles)
     bare = ~buried

@@ -26,6 +26,7 @@ DENSE_ENOUGH = 0.1  # chosen: midsurface
 # much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
 HOLE = 0.85  # spacings: the radius of the largest holes between even samples; measured: stage_sampling.md
+REACH = 1.5  # spacings: no place of a surface is farther from its samples; chosen: unseen
 _PLACES = 5  # the number of worst places that are reported
 _APART = 0.05  # the smallest distance between them, as a share of the diagonal; chosen: unseen
 

@@ -17,8 +17,8 @@ from ..shape.shape import Shape
 from ..shape.solid_faces import SolidFaces
 from ..small_matrices import placed
 from .analysed import Analysed
+from .density import REACH
 
-_REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings; chosen: unseen
 _LOOKED_AT = 500  # doubts are compared with each other, so of many an even selection is
 _AROUND = 4.0  # doubts within this number of spacings belong together; chosen: unseen
 
@@ -53,7 +53,7 @@ def doubts_of(shape: Shape, samples: Analysed, progress: Any) -> tuple[Floats, F
             shape.points,
             shape.triangles[shape.unfolded],
             samples.normals,
-            _REACH * samples.apart,
+            REACH * samples.apart,
             progress=progress,
         )
     return found

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import Floats
+from ..settings import OPTIONS
 from ..shape.nearness import near, nearest
 from ..shape.solid_faces import sharp_angle_of
 from .analysed import Analysed
@@ -16,15 +17,14 @@ from .decide import Plan
 from .doubts import Topology
 from .sample_spacing import Amount
 
-# The spacing at a doubt is this share of its gap, but not more and not less than these shares of the spacing there.
-_OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25  # chosen: unseen
+# The spacing at a doubt is half of its gap, but not more than half of the spacing there, and not less than this share.
+_HALF, _FINEST = 0.5, 0.25  # chosen: unseen
 # Where a Voronoi edge passes the faces in a gap below this share of the way to its samples, it may touch a bulge.
 _WIDE = 0.2  # chosen: unseen
 # Walls that are missed on more than this share of the area are missed as a whole.
 _AS_A_WHOLE = 0.2  # chosen: unseen
-# Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid;
-# the least angle of the option is one degree.
-_AS_BENT, _LEAST_SHARP = 3.0, math.radians(1.0)  # chosen: unseen
+# Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid.
+_AS_BENT = 3.0  # chosen: unseen
 
 
 def next_amount(plan: Plan, samples: Analysed, budget: int) -> Amount:
@@ -84,7 +84,7 @@ def _wanted(samples: Analysed, topology: Topology) -> tuple[Floats, Floats]:
     wide = gaps > _WIDE * away
     if not wide.any():
         wide[:] = True
-    wanted = np.clip(_OF_GAP * gaps, _FINEST * own, _COARSEST * own)
+    wanted = np.clip(_HALF * gaps, _FINEST * own, _HALF * own)
     return places[wide], wanted[wide]
 
 
@@ -99,7 +99,9 @@ def sharp_on_flat(plan: Plan, samples: Analysed) -> float:
         return 0.0
     shape = plan.given.shape
     bent = shape.smooth_bends(plan.given.sharp)[walls.faces[walls.bulges]]
-    least = max(float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, _LEAST_SHARP)
+    least = max(
+        float(bent[bent > 0.0].min(initial=math.inf)) / _AS_BENT, OPTIONS["sharp_angle"].minimum
+    )
     settings = plan.given.settings
     settings = replace(settings, sharp_angle=min(settings.sharp_angle, least))
     return sharp_angle_of(shape, settings)

@@ -19,7 +19,7 @@ from .density import percent
 from .doubts import words_of_place
 from .scan import is_noisy, scan_warnings
 
-_SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning; chosen: unseen
+_SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning; derived: most of them
 
 
 def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:

@@ -15,7 +15,7 @@ from ..settings import Side, SidesFrom
 from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.shape import Shape
-from ..shape.triangles import some_of
+from ..shape.triangles import FEW, some_of
 from ..small_matrices import dot
 from .analysed import Sides
 from .buried_samples import outer_share, sides_of_faces
@@ -24,8 +24,6 @@ from .buried_samples import outer_share, sides_of_faces
 _UNEVEN = 0.1  # measured: 0.06 on clean scans
 # A triangle, or an edge, that is this many times as wide as the median one spans an opening.
 _WIDE = 10.0  # chosen: unseen
-# Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
-_TURNED = 0.01  # chosen: unseen
 _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 # Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a
 # wavy sheet does.
@@ -90,7 +88,9 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
     bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
-    turned = bounded or _turned(shape.points, shape.triangles) <= _TURNED
+    turned = (
+        bounded or _turned(shape.points, shape.triangles) <= FEW
+    )  # else their normals mean nothing
     is_open = f"the mesh is open at {gaps:,} edges"
     by_winding = f"the winding number of the faces, for {is_open}"
     reasons = {

@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..shape.shape import Shape
-from ..shape.triangles import some_of, unit_normals
+from ..shape.triangles import FEW, some_of, unit_normals
 
 # Walls closer than this number of spacings get finer samples, until the walls are this number of spacings apart.
 _WANTED = 2.0  # chosen: axis
@@ -27,8 +27,6 @@ _MISSED = 0.8  # measured: stage_sampling.md
 # Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
 # their distance; finer samples get this share.
 _FOLLOWED, _FINER = 0.4, 0.25  # chosen: axis
-# A smaller share of the area may come from single samples, and does not count.
-_SOME = 0.01  # chosen: unseen
 # A smooth surface that leaves its flat faces by more than this share of the distance of walls, or of samples, is none
 # of the solid.
 _BULGING = 0.5  # chosen: unseen
@@ -91,7 +89,7 @@ class Walls(Places):
 
     @cached_property
     def are_missed(self) -> bool:
-        return self.missed > _SOME
+        return self.missed > FEW
 
     @property
     def bulges(self) -> Flags:
@@ -102,7 +100,7 @@ class Walls(Places):
 
     @property
     def are_bulging(self) -> bool:
-        return float(self.area[self.bulges].sum()) > _SOME * float(self.area.sum())
+        return float(self.area[self.bulges].sum()) > FEW * float(self.area.sum())
 
     @property
     def are_flat(self) -> bool:

@@ -10,6 +10,9 @@ from ..arrays import Floats
 
 # At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
+# A smaller share of the faces, their edges, their area or its samples comes from single ones, as at rims and folds, and
+# does not count.
+FEW = 0.01  # chosen: unseen
 
 
 def some_of(count: int) -> NDArray[np.intp]:

@@ -17,9 +17,7 @@ from ..curves.net import Net
 from ..small_matrices import dot, inverse, stretches, times
 
 _FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball; chosen: skeleton
-_ROOM = (
-    0.6  # the ball at the new place must have at least this share of the radius; chosen: skeleton
-)
+_ROOM = 0.6  # of the radius: the ball at the new place must have as much; chosen: skeleton
 _STAY = 0.05  # the old place has this weight; each limb has weight 1; chosen: skeleton
 
 

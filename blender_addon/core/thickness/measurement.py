@@ -20,9 +20,6 @@ from .close_walls import CloseWalls, is_shorter, rounding_of
 from .face_lengths import MeasuredFaces
 from .thin_faces import face_of_triangles, thinnest_of_faces
 
-# A larger share of the surface without a thickness is reported; smaller ones come from single triangles at rims.
-UNKNOWN = 0.01  # chosen: unseen
-
 
 @dataclass(frozen=True, eq=False)
 class Measurement:

@@ -31,10 +31,11 @@ from ..settings import Between, Edges, Form, Noise, SamplingMode, Settings, Thic
 from ..shape.nearness import sample_of_row
 from ..shape.outward_faces import outward_shape, reading_warnings
 from ..shape.shape import Shape
+from ..shape.triangles import FEW
 from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls, no_close_walls
 from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
-from .measurement import UNKNOWN, Measurement
+from .measurement import Measurement
 
 # From this noise on, in spacings, the mode Clean measures too small lengths, and every mode measures wrong lengths.
 _SOME, _TOO_MUCH = 0.05, 0.18  # chosen: unseen
@@ -245,12 +246,12 @@ def _warnings(found: Measurement) -> Iterator[str]:
             f"at {percent(float(found.walls.share.sum()))} of the surface the walls are closer than the axis "
             f"shows, down to {found.walls.distance.min():.3g}; there the distance straight through the solid counts"
         )
-    if found.slack > 0.0 and found.slack > UNKNOWN * (found.settings.limit or found.minimum):
+    if found.slack > 0.0 and found.slack > FEW * (found.settings.limit or found.minimum):
         yield (
             f"coordinates so far from the origin are rounded by {found.slack:.2g}, and so is every length; move the "
             "shape to the origin where it is made"
         )
-    if found.unmeasured > UNKNOWN:
+    if found.unmeasured > FEW:
         yield (
             f"at {percent(found.unmeasured)} of the surface no thickness could be measured; take more "
             "samples, or look at the place"

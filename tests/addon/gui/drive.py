@@ -15,11 +15,7 @@ from tests.support.claims import claim  # run.py makes it found
 
 HERE = Path(__file__).resolve().parent
 SIZE = (1280, 800)
-SIZES = {
-    "tutorial": (1280, 720),
-    "first_glance": (1280, 720),
-    "first_glance_large": (1920, 1080),
-}  # of other scenes
+SIZES = {"tutorial": (1280, 720), "first_glance": (1280, 720)}  # of other scenes
 # Blender goes on after these: Python failed, or a panel names a property, an operator or a menu that is not there.
 _ERROR = re.compile(
     r"Traceback|property not found|operator missing|unknown operator|menu.* not found"
@@ -29,34 +25,15 @@ LIMIT = 240  # seconds for one scene, start of Blender included, on a machine th
 SCENES = {  # name -> whether the compiled module is installed
     "tutorial": True,
     "first_glance": True,
-    "first_glance_light": True,
-    "first_glance_large": True,
     "compute_drag_undo": True,
     "draft": True,
     "sliders_with_escape": True,
     "auto_update": True,
-    "steady_panels": True,
     "panels_in_place": True,
-    "scan": True,
-    "sampling": True,
     "what_comes_after": True,
-    "pose_a_body": True,
-    "hollow": True,
-    "unsolidify": True,
     "cancel_with_escape": True,
-    "cancel_with_button": True,
-    "reduce_with_escape": True,
     "undo_while_running": True,
     "undo_storm": True,
-    "file_opened": True,
-    "disabled_while_running": True,
-    "window_closed_while_running": True,
-    "edit_mode": True,
-    "sequence": True,
-    "cancel_sequence_with_escape": True,
-    "quit_while_running": True,
-    "plain_words": True,
-    "german": True,
     "missing_module": False,
 }
 

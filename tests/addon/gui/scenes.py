@@ -13,7 +13,6 @@ import sys
 import threading
 import time
 import traceback
-from functools import partial
 from pathlib import Path
 
 import bpy
@@ -21,39 +20,26 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, attribute, link, medial_objects, on_ellipsoid, positions, select
+from scene import addon, analyses, link, medial_objects, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 to 5.2 draw it.
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
 COMPUTE = (102, 50)
-CANCEL = (48, 50)
-MORE = (49, 81)  # beside a note
-RECONSTRUCT = (102, 81)  # where there are points without faces
 THETA_LEFT, THETA_RIGHT = (112, 153), (84, 153)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
-GERMAN_TAB = (13, 270)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
-SKELETON, THICKNESS, SETTINGS = (150, 208), (150, 234), (150, 260)
-(
-    RESULT,
-    REBUILD,
-    SETTINGS_OF_RESULT,
-) = (  # where there is a result; the others, when the first is closed
+SKELETON, THICKNESS = (150, 208), (150, 234)
+RESULT, REBUILD = (
     (150, 208),
     (150, 286),
-    (150, 338),
-)
+)  # where there is a result; the other, when the first is closed
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
-CLEAN_UP, METHOD = (150, 286), (150, 338)  # in Settings before there is a result
-SAMPLING = (150, 391)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 360), (102, 386)
-MEASURE_THICKNESS, THICKEN, DIVIDE = (102, 382), (102, 563), (102, 584)
-UNSOLIDIFY, HOLLOW = (102, 405), (102, 426)
-DRAIN = (255, 675)  # on the screen, in Adjust Last Operation
+MEASURE_THICKNESS, THICKEN = (102, 382), (102, 563)
 REBUILD_SOLID, OTHERS = (102, 316), (49, 316)
-FORM, SKELETON_END = (200, 95), (30, 322)
+FORM = (200, 95)
 SHOW_COLOURS, BELOW_LEGEND, BOTTOM = (30, 222), (200, 330), (30, 600)
 
 
@@ -229,10 +215,6 @@ def surfaces():
     return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
 
 
-def surface_exists():
-    return bool(surfaces()) and job() is None
-
-
 def threads():
     return [thread for thread in threading.enumerate() if thread.name == "medial axis"]
 
@@ -359,39 +341,6 @@ def scene_sliders_with_escape():
     yield no_update
     yield from look_after(1.0, "curve")
     assert facets() == 0
-
-
-def scene_steady_panels():
-    """Nothing moves when a computation begins, and every verb is in one menu, where F3 finds it."""
-    select(bpy.data.objects["Cube"])
-    bpy.context.scene.medial_axis.sampling = "SURFACE"
-    bpy.context.scene.medial_axis.samples = 600
-    yield from open_tab()
-    yield from fold(SKELETON)
-    look("before")
-    with held(addon("core.axis.compute"), "extract"):
-        yield from click(*at(COMPUTE))
-        yield job_exists
-        yield from look_after(1.0, "computing")
-        yield from key("Escape")
-        yield no_job
-    yield from look_after(1.0, "cancelled")
-    assert_same_below(FORM, SKELETON_END, "before", "computing")
-    assert_same_below(FORM, SKELETON_END, "before", "cancelled")
-    yield from fold(SKELETON)
-    yield from computed()
-    yield from look_after(1.0, "result")
-    yield from fold(RESULT)
-    yield from fold(SETTINGS_OF_RESULT)
-    look("settings")
-    yield from key("F3")
-    xdotool("type", "thick")
-    yield from look_after(1.0, "found")
-    yield from key("Escape")
-    with in_viewport():
-        bpy.ops.wm.call_menu(name="VIEW3D_MT_medial_axis")
-    yield from look_after(1.0, "menu")
-    yield from key("Escape")
 
 
 def scene_panels_in_place():
@@ -630,43 +579,6 @@ def start_long_run():
     assert medial_objects() == []
 
 
-def scan_file():
-    """A raw scan: that of a cap where the optional data folder is named, or else a bare ellipsoid."""
-    path = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ""), "distcap.xyz")
-    if not path.is_file():
-        path = Path(FOLDER) / "scan.xyz"
-        np.savetxt(path, on_ellipsoid(3000)[0])
-    return path
-
-
-def scene_scan():
-    """File > Import of a raw scan, one click, a clean inner axis; another click, its surface."""
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with in_viewport():
-        assert bpy.ops.import_mesh.points_xyz(filepath=str(scan_file())) == {"FINISHED"}
-    source = bpy.context.view_layer.objects.active
-    assert len(source.data.vertices) > 1000 and len(source.data.polygons) == 0
-    frame_selected()
-    yield from open_tab()
-    look("imported")
-    yield from computed()
-    yield from look_after(0.5, "computed")
-    (result,) = medial_objects()
-    assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
-    assert set(attribute(result.data, "ma_side")) == {1}
-    select(source)
-    yield from click(*at(RECONSTRUCT))
-    yield surface_exists
-    yield from look_after(1.5, "reconstructed")
-    (surface,) = surfaces()
-    assert len(surface.data.vertices) > 0.99 * (surface["ma_points"] - surface["ma_duplicates"])
-    yield from key("ctrl+z")
-    assert surfaces() == [] and len(medial_objects()) == 1, "undo must remove the surface alone"
-    yield from key("ctrl+shift+z")
-    assert len(surfaces()) == 1, "redo must bring the surface back"
-    yield from look_after(1.0, "redone")
-
-
 def data(name):
     """A function that makes an object of an optional mesh, or None where it is absent."""
 
@@ -742,9 +654,6 @@ def show_colours():
         assert bpy.ops.view3d.medial_axis_show_colours() == {"FINISHED"}
 
 
-scene_first_glance_light = scene_first_glance_large = scene_first_glance
-
-
 def scene_tutorial():
     """The pictures of docs/tutorial.md, in their order."""
     source, panel = monkey(), bpy.context.scene.medial_axis
@@ -799,40 +708,6 @@ def turn_to_the_front():
     """The viewport looks at what is selected, a little from the side."""
     viewport().spaces.active.region_3d.view_rotation = Euler((1.35, 0.0, 0.45)).to_quaternion()
     frame_selected()
-
-
-def scene_sampling():
-    """One click on the cube that Blender starts with; another shows how densely it was sampled; H, and one more."""
-    cube = bpy.data.objects["Cube"]
-    select(cube)
-    yield from open_tab()
-    look("panel")
-    yield from computed()
-    yield from look_after(0.5, "computed")
-    (result,) = medial_objects()
-    assert "samples of the surface: the vertices" in result["ma_sampled"]
-    assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
-    select(cube)
-    for header in (RESULT, SETTINGS_OF_RESULT, SAMPLING):
-        yield from fold(header)
-    look("opened")
-    yield from key("F3")
-    xdotool("type", "report samp")
-    yield patience(1.0)
-    xdotool("key", "Return")
-    yield report_exists
-    yield from look_after(2.0, "reported")
-    (report,) = reports()
-    assert len(report.data.vertices) == result["ma_points"], "it is the same analysis"
-    yield from key("ctrl+z")
-    assert reports() == [] and len(medial_objects()) == 1, "undo must remove the report alone"
-    select(bpy.data.objects["Cube"])
-    yield from key("h")
-    assert bpy.context.selected_objects == [] and medial_objects()[0].visible_get()
-    medial_objects()[0]["ma_seconds"] = -1.0
-    yield from pressed(COMPUTE, lambda: medial_objects()[0]["ma_seconds"] > 0.0)
-    look("hidden-by-h")
-    assert not bpy.data.objects["Cube"].visible_get(), "it is read and stays hidden"
 
 
 def branches():
@@ -899,185 +774,6 @@ def scene_what_comes_after():
     yield from look_after(1.5, "9-nodes")
 
 
-def scene_pose_a_body():
-    """Shoulder, hip, knee and tail turned by mouse, of a body with weights of the axis and one with Blender's."""
-    from test_rig import figure
-
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    viewport().spaces.active.show_region_ui = False
-    viewport().spaces.active.overlay.show_bones = True
-    for bind in ("AXIS", "AUTOMATIC"):
-        source = figure(bind.title(), tail=True)
-        with bpy.context.temp_override(window=window(), area=viewport(), object=source):
-            made = bpy.ops.object.medial_axis_armature(bind=bind, per_limb=2)
-        assert made == {"FINISHED"}
-        look_at_it_from((1.0, -1.6, 0.5))
-        frame_selected()
-        yield from look_after(1.5, f"{bind.lower()}-1-at-rest")
-        thing = bpy.data.objects[f"{bind.title()} Armature"]
-        select(thing)
-        with in_viewport():
-            bpy.ops.object.mode_set(mode="POSE")
-        for bone, angle in (("arm.01.L", -50), ("leg.01.L", 50), ("leg.02.L", -50)):
-            yield from turned_by_mouse(thing, bone, angle)
-        assert_left_side_moved(source)
-        look(f"{bind.lower()}-2-limbs")
-        look_at_it_from((1.6, 1.2, 0.4))
-        yield patience(1.0)
-        yield from turned_by_mouse(thing, "tail.01", 40)
-        look(f"{bind.lower()}-3-tail")
-        with in_viewport():
-            bpy.ops.object.mode_set(mode="OBJECT")
-        for made in (source, thing):
-            made.hide_set(True)
-
-
-def look_at_it_from(towards):
-    from mathutils import Vector
-
-    view = viewport().spaces.active.region_3d
-    view.view_rotation = Vector(towards).to_track_quat("Z", "Y")
-    view.view_perspective = "ORTHO"
-
-
-def on_screen(place):
-    """A place of the world in pixels from the upper left."""
-    from bpy_extras.view3d_utils import location_3d_to_region_2d
-
-    region = next(region for region in viewport().regions if region.type == "WINDOW")
-    x, y = location_3d_to_region_2d(region, viewport().spaces.active.region_3d, place)
-    return round(region.x + x), round(window().height - region.y - y)
-
-
-def turned_by_mouse(thing, name, angle):
-    """Click on a bone, press R, lead the mouse round its head, and click again."""
-    bone = thing.pose.bones[name]
-    middle = thing.matrix_world @ (bone.head + bone.tail) / 2
-    yield from click(*on_screen(middle))
-    found = bpy.context.view_layer.objects.active
-    assert found == thing and thing.data.bones.active.name == name, thing.data.bones.active
-    before = bone.matrix.to_quaternion()
-    x, y = on_screen(thing.matrix_world @ bone.head)
-    steps = np.radians(np.linspace(0.0, angle, 9))
-    way = [(round(x + 120 * np.cos(a)), round(y - 120 * np.sin(a))) for a in steps]
-    yield from point(*way[0])
-    xdotool("key", "r")
-    yield 0.5
-    for place in way[1:]:
-        xdotool("mousemove", *place)
-        yield 0.15
-    xdotool("click", 1)
-    yield patience(0.8)
-    turned = np.degrees(before.rotation_difference(bone.matrix.to_quaternion()).angle)
-    turned = min(turned, 360.0 - turned)  # a quaternion and its negative are one turn
-    assert 0.5 * abs(angle) < turned < 1.3 * abs(angle), (name, turned)
-
-
-def assert_left_side_moved(source):
-    """The arm and the leg at the left have moved, and those at the right have not."""
-    now = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    rest = positions(source.data)
-    moved = np.linalg.norm(positions(now) - rest, axis=1)
-    x, z = rest[:, 0], rest[:, 2]
-    assert moved[x > 0.5].max() > 0.2, "the arm"
-    assert moved[(x > 0.1) & (z < 0.4)].max() > 0.2, "the leg"
-    for away in (x < -0.4, (x < -0.12) & (z < 0.5)):
-        assert moved[away].max() < 0.03, "the other side"
-
-
-def scene_hollow():
-    """A ring with a wall and a drain hole, by the button of the panel and Adjust Last Operation; undo takes it off."""
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with in_viewport():
-        bpy.ops.mesh.primitive_torus_add(major_radius=1.2, minor_radius=0.6)
-    bpy.ops.ed.undo_push(message="Scene is set")
-    frame_selected()
-    yield from measured(limit=0.2)
-    look("1-measured")
-    yield from pressed(HOLLOW, lambda: "Torus Hollow" in bpy.data.objects)
-    show_colours()
-    viewport().spaces.active.shading.show_xray = True
-    yield from look_after(1.0, "2-hollow")
-    solid, within = (
-        0.6 * np.cos(np.pi / 12),
-        0.6 * np.cos(np.pi / 12) - 0.2,
-    )  # to the sides of a ring of 12
-    left = volume_of(bpy.data.objects["Torus Hollow"]) / volume_of(bpy.data.objects["Torus"])
-    assert abs(left - (1 - (within / solid) ** 2)) < 0.02, left
-    yield from click(145, 705)  # opens Adjust Last Operation at the lower left
-    yield from look_after(1.0, "3-adjust")
-    yield from typed_into(DRAIN, "0.3")
-    yield from until(lambda: "Torus Hollow Drain" in bpy.data.objects)
-    look("4-drained")
-    drained, whole = (bpy.data.objects[name] for name in ("Torus Hollow", "Torus"))
-    assert drained.modifiers[-1].type == "BOOLEAN"
-    assert left - 0.02 < volume_of(drained) / volume_of(whole) < left
-    yield from key("ctrl+z")
-    yield from until(lambda: not any("Hollow" in thing.name for thing in bpy.data.objects))
-    assert "Torus" in bpy.data.objects
-
-
-def scene_unsolidify():
-    """A T as its middle surface, which the panel's button makes and its modifier thickens again; undo takes it off.
-
-    Then a plate that is thin at one end: another button divides its faces and thickens it, and undo takes both off.
-    """
-    profile_t()
-    yield from measured(limit=0.05)
-    look("1-measured")
-    yield from pressed(UNSOLIDIFY, lambda: "T Mid-Surface" in bpy.data.objects)
-    sheets = bpy.data.objects["T Mid-Surface"]
-    assert set(attribute(sheets.data, "ma_part")) == {0, 1, 2}
-    yield from look_after(1.0, "2-sheets")
-    modifier = sheets.modifiers["Medial Axis Thickness"]
-    modifier.show_viewport = True
-    yield from look_after(1.0, "3-solid-again")
-    yield from key("ctrl+z")
-    yield from until(lambda: "T Mid-Surface" not in bpy.data.objects)
-    assert "T" in bpy.data.objects
-
-    wedge()
-    bpy.context.scene.medial_axis_thickness.limit = 0.05
-    yield from click(*at(MEASURE_THICKNESS))
-    yield from until(
-        lambda: (
-            addon("bridge.thickness.thickness_object").carrier_of(bpy.data.objects["Wedge"])
-            is not None
-        )
-    )
-    look("4-thin-at-one-end")
-    yield from pressed(DIVIDE, lambda: "Medial Axis Thicken" in bpy.data.objects["Wedge"].modifiers)
-    look("5-divided-and-thicker")
-    thing, of = bpy.data.objects["Wedge"], addon("bridge.thickness.thickness_object")
-    assert len(thing.data.polygons) > 300 and of.carrier_of(thing)["ma_thickness_share"] < 0.02
-    yield from key("ctrl+z")
-    yield from until(lambda: not bpy.data.objects["Wedge"].modifiers)
-    assert len(bpy.data.objects["Wedge"].data.polygons) == 6
-
-
-def wedge():
-    """A plate of six faces, which gets thicker from 0.02 to 0.1."""
-    bpy.data.batch_remove(bpy.data.objects)
-    points = [(x, y, z * (0.03 + 0.02 * x)) for z in (-1, 1) for x in (-1, 1) for y in (-1, 1)]
-    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    select(link("Wedge", points, sides))
-    frame_selected()
-    bpy.ops.ed.undo_push(message="Scene is set")
-
-
-def profile_t():
-    """A T of walls of 0.1."""
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    outline = [(-1, 1), (-1, 0.9), (-0.05, 0.9), (-0.05, -0.5)]
-    outline += [(-x, z) for x, z in outline[::-1]]
-    points = [(x, y, z) for y in (-1, 1) for x, z in outline]
-    sides = [(i, (i + 1) % 8, (i + 1) % 8 + 8, i + 8) for i in range(8)]
-    source = link("T", points, [*sides, range(7, -1, -1), range(8, 16)])
-    frame_selected()
-    bpy.ops.ed.undo_push(message="Scene is set")
-    return source
-
-
 def measured(limit):
     """Measure the thickness of the active object by the panel."""
     source = bpy.context.object
@@ -1089,25 +785,6 @@ def measured(limit):
         lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
     )
     yield patience(1.0)
-
-
-def typed_into(place, text):
-    """Type a value into a field on the screen."""
-    yield from point(*place)
-    xdotool("click", "--repeat", 2, "--delay", 60, 1)
-    yield 0.5
-    xdotool("key", "ctrl+a")
-    xdotool("type", text)
-    xdotool("key", "Return")
-    yield 0.8
-
-
-def volume_of(thing):
-    """The volume that the faces of an object enclose, after its modifiers."""
-    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    mesh.calc_loop_triangles()
-    corners = np.array([[mesh.vertices[i].co for i in t.vertices] for t in mesh.loop_triangles])
-    return abs(np.linalg.det(corners).sum()) / 6
 
 
 def until(condition):
@@ -1131,15 +808,6 @@ def fold(header):
     """Open or close a panel by its header."""
     yield from click(*at(header))
     yield 1.0
-
-
-def reports():
-    is_report = addon("bridge.axis.report_object").is_report
-    return [thing for thing in bpy.data.objects if is_report(thing)]
-
-
-def report_exists():
-    return bool(reports()) and no_job()
 
 
 def frame_selected():
@@ -1173,43 +841,6 @@ def scene_cancel_with_escape():
     assert time.monotonic() - asked < patience(3.0)  # far less than the run would take
     yield from look_after(0.5, "cancelled")
     nothing_is_left()
-    assert "cancelled" in bpy.context.scene.medial_axis.note
-
-
-def scene_reduce_with_escape():
-    """A small medial mesh takes seconds: Blender goes on, Escape ends it, and once more it comes."""
-    source = monkey()
-    source.modifiers["Subdivision"].levels = 2
-    assert bpy.ops.object.medial_axis(form="CLEAN", side="INNER") == {"FINISHED"}
-    before = len(bpy.data.objects)
-    area = viewport()
-    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
-    start_reducing()
-    yield from blender_goes_on(8)
-    xdotool("key", "Escape")  # at once: most of the time goes into measuring the result
-    yield no_job
-    assert len(bpy.data.objects) == before
-    assert "cancelled" in bpy.context.scene.medial_axis.note
-    start_reducing()
-    yield no_job
-    assert len(bpy.data.objects) == before + 1
-    yield from look_after(1.0, "reduced")
-
-
-def start_reducing():
-    with in_viewport():
-        started = bpy.ops.object.medial_axis_reduce("INVOKE_DEFAULT", vertices=100)
-    assert started == {"RUNNING_MODAL"}
-
-
-def scene_cancel_with_button():
-    cloud()
-    yield from start_long_run()
-    yield from click(*at(CANCEL))
-    yield patience(0.5)
-    assert no_job(), "the button was missed, or the run does not end"
-    nothing_is_left()
-    yield 0.3
     assert "cancelled" in bpy.context.scene.medial_axis.note
 
 
@@ -1266,180 +897,6 @@ def storm(strokes, heights):
     yield 0.5
 
 
-def scene_file_opened():
-    """Another file while a run is on, the same file once more, and the add-on works in it."""
-    path = str(Path(FOLDER) / "opened.blend")
-    cloud(400_000)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    for load in (partial(bpy.ops.wm.open_mainfile, filepath=path), bpy.ops.wm.revert_mainfile):
-        yield from start_long_run()
-        with bpy.context.temp_override(window=window()):
-            load()
-        yield 1.0
-        assert no_job()
-        nothing_is_left()
-        select(bpy.data.objects["Cloud"])
-    yield from start_long_run()
-    yield result_exists
-    yield from look_after(0.5, "computed")
-    assert [thing.name for thing in medial_objects()] == ["Cloud Medial Axis"]
-
-
-def scene_disabled_while_running():
-    cloud()
-    yield from start_long_run()
-    bpy.ops.preferences.addon_disable(module=os.environ["MEDIAL_AXIS_MODULE"])
-    yield 1.0
-    assert threads() == [] and not hasattr(bpy.types, "OBJECT_OT_medial_axis")
-    look("disabled")
-    bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
-    yield 0.5
-    nothing_is_left()
-    bpy.data.objects.remove(bpy.data.objects["Cloud"])
-    bpy.ops.mesh.primitive_cube_add()
-    yield from open_tab()
-    yield from computed()
-    yield from look_after(0.5, "computed")
-
-
-def scene_window_closed_while_running():
-    """The run belongs to the window that it was started in."""
-    cloud()
-    with bpy.context.temp_override(window=window()):
-        bpy.ops.wm.window_new()
-    yield 1.0
-    second = bpy.context.window_manager.windows[-1]
-    assert second != window()
-    with bpy.context.temp_override(window=second):
-        assert bpy.ops.object.medial_axis("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    yield job_exists
-    yield job_runs
-    with bpy.context.temp_override(window=second):
-        bpy.ops.wm.window_close()
-    yield 1.0
-    assert no_job()
-    nothing_is_left()
-    bpy.data.objects.remove(bpy.data.objects["Cloud"])
-    bpy.ops.mesh.primitive_cube_add()
-    yield from open_tab()
-    yield from computed()
-
-
-def scene_edit_mode():
-    monkey()
-    with in_viewport():
-        bpy.ops.object.mode_set(mode="EDIT")
-    yield from open_tab()
-    yield from computed()
-    yield from look_after(0.5, "computed")
-    assert bpy.context.mode == "EDIT_MESH" and bpy.context.object.name == "Suzanne"
-    yield from key("ctrl+z")
-    look("undone")
-
-
-def start_sequence(folder):
-    with in_viewport():
-        begun = bpy.ops.object.medial_axis_sequence("INVOKE_DEFAULT", directory=str(folder))
-    assert begun == {"RUNNING_MODAL"}
-
-
-def played():
-    return [thing for thing in bpy.data.objects if "ma_frame" in thing]
-
-
-def scene_sequence():
-    """Frames are computed while Blender stays usable; one undo takes the playback away, not the files."""
-    source = monkey()
-    for frame in (1, 3):
-        source.scale = (1, 1, frame)
-        source.keyframe_insert("scale", frame=frame)
-    bpy.context.scene.frame_end = 3
-    bpy.ops.ed.undo_push(message="Scene is animated")
-    folder = Path(FOLDER) / "sequence"
-    yield from open_tab()
-    start_sequence(folder)
-    yield played
-    yield from look_after(0.5, "computed")
-    assert len(list(folder.glob("Suzanne_000?.npz"))) == 3 == len(played())
-    assert bpy.context.scene.frame_current == 1 and no_job()
-    (shown,) = (thing for thing in played() if thing.visible_get())
-    assert shown.dimensions.z <= source.dimensions.z, "the first frame has no key of the last"
-    yield from key("ctrl+z")
-    assert played() == [] and len(bpy.data.collections) == 1
-    start_sequence(folder)  # of files that are finished
-    yield played
-    for frame in (1, 2, 3):
-        bpy.context.scene.frame_set(frame)
-        shown = [thing["ma_frame"] for thing in played() if thing.visible_get()]
-        assert shown == [frame]
-    yield from look_after(0.5, "played")
-
-
-def scene_cancel_sequence_with_escape():
-    cloud()
-    bpy.context.scene.frame_end = 3
-    folder = Path(FOLDER) / "cancelled sequence"
-    yield from open_tab()
-    start_sequence(folder)
-    yield job_exists
-    yield job_runs
-    look("running")
-    yield from key("Escape")
-    yield no_job
-    yield 0.5
-    nothing_is_left()
-    assert played() == [] and not folder.exists()
-
-
-def scene_quit_while_running():
-    cloud()
-    yield from start_long_run()
-    assert threads()
-
-
-def scene_plain_words():
-    """Flat text is told in one line; the question mark beside it has the whole sentence."""
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    with in_viewport():
-        bpy.ops.object.text_add()
-    yield from open_tab()
-    yield from click(*at(COMPUTE))
-    yield lambda: bpy.context.scene.medial_axis.note
-    yield patience(1.0)
-    yield from point(viewport().x + 200, 300)  # Blender's own message goes with the mouse
-    look("told")
-    for _ in range(2):  # Blender's own message takes the first one
-        yield from click(*at(MORE))
-    yield from look_after(1.0, "more")
-    yield from point(viewport().x + 200, 300)
-    bpy.context.scene.medial_axis.note = ""
-    yield patience(1.0)
-    for header in (SETTINGS, METHOD, CLEAN_UP):
-        yield from fold(header)
-    look("settings")
-
-
-def scene_german():
-    """The sidebar with a result, and the preferences with a self-test, where Blender speaks German."""
-    bpy.context.preferences.view.language = "de_DE"
-    select(bpy.data.objects["Cube"])
-    viewport().spaces.active.show_region_ui = True
-    yield 1.0
-    yield from click(*at(GERMAN_TAB))
-    with in_viewport():
-        bpy.ops.object.medial_axis("INVOKE_DEFAULT")
-    yield result_exists
-    yield from look_after(1.0, "sidebar")
-    area = viewport()
-    area.type = "PREFERENCES"
-    bpy.context.preferences.active_section = "ADDONS"
-    bpy.context.window_manager.addon_search = "Medial"
-    yield 1.5  # the list knows its add-ons when it was drawn
-    bpy.ops.preferences.addon_expand(module=os.environ["MEDIAL_AXIS_MODULE"])
-    assert bpy.ops.wm.medial_axis_self_test() == {"FINISHED"}
-    yield from look_after(1.5, "preferences")
-
-
 def scene_missing_module():
     yield from open_tab()
     look("message")
@@ -1493,23 +950,12 @@ def end(problem):
     bpy.ops.wm.quit_blender()
 
 
-def light_theme():
-    """The light theme that comes with Blender."""
-    for folder in bpy.utils.preset_paths("interface_theme"):
-        for path in Path(folder).glob("Blender_Light.xml"):
-            bpy.ops.script.execute_preset(
-                filepath=str(path), menu_idname="USERPREF_MT_interface_theme_presets"
-            )
-
-
 def start():
     bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.inputs.use_mouse_continuous = False  # else a drag warps the mouse
     bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
     preferences = bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences
     preferences.guided = NAME != "tutorial"  # else its line moves what is below
-    if NAME.endswith("_light"):
-        light_theme()
     bpy.app.timers.register(play(globals()[f"scene_{NAME}"]()), first_interval=3.0, persistent=True)
 
 
