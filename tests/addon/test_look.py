@@ -13,6 +13,7 @@ from scene import (
     compute,
     ellipsoid,
     link,
+    medial_objects,
     positions,
     result_of,
     select,
@@ -110,6 +111,34 @@ def test_result_is_coloured_by_radius():
     name, *ends = addon("bridge.mesh.colours").colour_range(result)
     assert name == "ma_radius" and ends == pytest.approx([start, end])
     assert tuple(result.color) == pytest.approx(addon("bridge.mesh.material").FLAT)
+
+
+def test_colours_follow_the_sliders():
+    source = ellipsoid()
+    compute(**EVEN)
+    select(source)
+    bpy.context.scene.medial_axis.form = "PUBLISHED"
+    bpy.context.scene.medial_axis.theta = 1.2
+    result = result_of(source)
+    assert len(colours_of(result.data)) == len(result.data.vertices)
+    bpy.context.scene.medial_axis.property_unset("theta")
+
+
+def test_scripts_turn_colours_off():
+    ellipsoid()
+    result = compute(colours=False, **EVEN)
+    assert "ma_color" not in result.data.attributes
+    assert addon("bridge.mesh.colours").colour_range(result) is None
+
+
+def test_report_is_coloured_by_epsilon():
+    source = ellipsoid()
+    assert bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN) == {"FINISHED"}
+    report = addon("bridge.axis.report_object").report_of(source)
+    epsilon = attribute(report.data, "ma_epsilon")
+    expected = addon("core.axis.colours").colours(epsilon, 0.0, 0.5)
+    np.testing.assert_allclose(colours_of(report.data), expected, atol=1e-5)
+    assert report.show_in_front, "it lies exactly on its source"
 
 
 def test_report_lies_on_a_source_that_can_show_it_and_beside_one_that_cannot():
@@ -277,6 +306,15 @@ def test_shards_of_an_outer_axis_are_hidden_but_not_as_published():
     assert result["ma_pieces"] == pieces
 
 
+def test_small_islands_are_hidden_on_demand_and_counted():
+    source = suzanne(levels=0)
+    result = compute(sampling="AUTOMATIC")
+    assert result["ma_pieces"] > 10
+    compute(source, sampling="AUTOMATIC", smallest_island=1.0)
+    assert 1 <= result["ma_pieces"] <= 100 and result["ma_hidden"] > 0
+    assert result.data.validate() is False
+
+
 # --- wires
 
 
@@ -385,6 +423,13 @@ def test_crumbs_are_hidden_and_counted():
     assert result["ma_pieces"] == pieces and result.data.validate() is False
 
 
+def test_exports_are_those_of_the_mesh(tmp_path):
+    _, result = curve_of_a_torus()
+    assert bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "axis.ma")) == {"FINISHED"}
+    vertices, edges, faces = map(int, (tmp_path / "axis.ma").read_text().split()[:3])
+    assert (vertices, faces) == (len(result.data.vertices), 0) and edges == len(result.data.edges)
+
+
 def test_a_modifier_that_was_removed_stays_away_and_comes_with_new_wires():
     source, result = curve_of_a_torus()
     result.modifiers.remove(wires_on(result))
@@ -396,6 +441,13 @@ def test_a_modifier_that_was_removed_stays_away_and_comes_with_new_wires():
     assert wires_on(result) is not None
     compute(source, form="PUBLISHED")
     assert wires_on(result) is None
+
+
+def test_one_node_group_for_all():
+    for _ in range(3):
+        curve_of_a_torus()
+    assert [group.name for group in bpy.data.node_groups] == ["Medial Axis Wires"]
+    assert len(medial_objects()) == 3
 
 
 # --- what the user presses
@@ -444,6 +496,17 @@ def test_panel_says_which_condition_binds():
     assert result["ma_only_ratio"] > 0.5 > result["ma_only_angle"]
     compute(source, criteria="ANGLE")
     assert result["ma_only_ratio"] == 0.0
+
+
+def test_guide_is_offered_until_it_was_used_or_dismissed():
+    guide = addon("ui.settings.guide")
+    preferences = bpy.context.preferences.addons[addon().__name__].preferences
+    preferences.property_unset("guided")
+    assert guide._wanted() == addon("ui.base.manual").has(guide.PAGE)
+    if guide._wanted():
+        bpy.ops.wm.medial_axis_tutorial(dismiss=True)
+        assert not guide._wanted()
+    preferences.property_unset("guided")
 
 
 # --- results lie where their source lies
@@ -530,3 +593,13 @@ def test_results_lie_within_their_source_whatever_its_type(kind, operator):
         bpy.context.scene.frame_set(frame)
         inner_low, inner_high = world_box(made)
         assert (inner_low >= low - slack).all() and (inner_high <= high + slack).all(), frame
+
+
+def test_a_moved_curve_takes_its_axis_along():
+    add_circle()
+    source = bpy.context.object
+    bpy.ops.object.medial_axis(samples=1500, sampling="SURFACE")
+    (made,) = (t for t in bpy.data.objects if t.get("ma_source") == source)
+    before = world_box(made)
+    source.location.x += 5.0
+    assert np.allclose(world_box(made) - before, (5, 0, 0), atol=1e-4)

@@ -2,6 +2,8 @@
 """Whatever an artist has, one click: samples of the faces, the axis in the solid, or one clear sentence."""
 
 import math
+import time
+from functools import partial
 
 import bpy
 import numpy as np
@@ -11,7 +13,9 @@ from scene import (
     analyses,
     attribute,
     contents,
+    medial_objects,
     positions,
+    reports,
     result_of,
     select,
     sound,
@@ -138,6 +142,11 @@ def test_curve_without_a_surface_is_one_sentence():
     refused("'B.zierCircle': Expected faces, found only lines; give the object a surface")
 
 
+def test_nurbs_surface():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    sound(click())
+
+
 def test_metaballs_together():
     bpy.ops.object.metaball_add(location=(0, 0, 0))
     ball = bpy.context.object
@@ -154,6 +163,14 @@ def test_metaballs_together():
     assert result_of(part) == result_of(ball)
     assert addon("ui.settings.properties").shown_thing(bpy.context) == result_of(ball)
     assert positions(result_of(ball).data)[:, 0].min() < -1.2
+
+
+def test_vertices_of_a_curve_when_they_are_asked_for():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    curve = bpy.context.object
+    curve.data.bevel_depth, curve.data.bevel_resolution = 0.2, 8
+    result = click(sampling="VERTICES")
+    assert result["ma_sampling"] == "VERTICES" and result["ma_points"] < 3_000
 
 
 # --- the choices
@@ -239,3 +256,73 @@ def test_sliders_work_on_samples():
     assert result["ma_samples"] == 3_000 and result["ma_sampling"] == "SURFACE"
     kept = addon("bridge.axis.axis_object").settings_of(result)
     assert (kept.samples, kept.smooth, kept.sampling.name) == (3_000, True, "SURFACE")
+
+
+@pytest.mark.parametrize("delay", [0.1])
+def test_cancel_works_in_every_pass(delay):
+    source = thin_and_thick()
+    shape = addon("bridge.objects.read_object").read_object(
+        source, bpy.context.evaluated_depsgraph_get()
+    )
+    settings = addon("core.settings")
+    wanted = settings.Settings(
+        sampling=settings.SamplingMode.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
+    )
+    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
+    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
+    seen, end = [], time.monotonic() + delay
+    while time.monotonic() < end:
+        seen.append(job.fraction)
+        time.sleep(0.01)
+    job.stop()
+    assert job.done and seen == sorted(seen)
+    with pytest.raises(addon("core.errors").Cancelled):
+        job.outcomes()
+
+
+def test_progress_is_one_bar_over_all_passes():
+    source = thin_and_thick()
+    shape = addon("bridge.objects.read_object").read_object(
+        source, bpy.context.evaluated_depsgraph_get()
+    )
+    settings = addon("core.settings")
+    wanted = settings.Settings(sampling=settings.SamplingMode.ADAPTIVE, samples=3_000)
+    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
+    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
+    seen = []
+    while not job.done:
+        seen.append((job.fraction, job.stage))
+        time.sleep(0.002)
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
+    assert len({stage for _, stage in seen}) > 3
+    assert job.outcomes()[0].value.chosen.sampling is settings.SamplingMode.ADAPTIVE
+
+
+# --- messy meshes
+
+
+def test_nothing_is_written_on_the_source():
+    bpy.ops.mesh.primitive_cube_add()
+    source = bpy.context.object
+    before = ([a.name for a in source.data.attributes], dict(source.items()))
+    click(sampling="SURFACE", samples=1_000)
+    assert ([a.name for a in source.data.attributes], dict(source.items())) == before
+
+
+def test_scale_is_applied_before_sampling():
+    bpy.ops.mesh.primitive_cube_add()
+    source = bpy.context.object
+    source.scale = (3, 1, 1)
+    result = click(sampling="SURFACE", samples=4_000)
+    where = positions(result.data)
+    assert np.abs(where[:, 0]).max() > 2.5 and attribute(result.data, "ma_radius").max() < 1.02
+    assert [tuple(row) for row in result.matrix_world] == [tuple(row) for row in np.eye(4)]
+
+
+def test_reports_of_a_click(capfd):
+    bpy.ops.mesh.primitive_cube_add()
+    click(sampling="SURFACE", samples=1_000)
+    infos = [text for kind, text in reports(capfd) if kind == "Info"]
+    assert len(infos) == 1 and len(medial_objects()) == 1
+    assert infos[0].startswith("Done: 1 piece, ")

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from scene import addon, attribute, ellipsoid, link, positions, refuse, scan, select
+from scene import addon, attribute, ellipsoid, link, positions, refuse, scan, select, suzanne
 
 MEASURE = "medial_axis_thickness"
 
@@ -98,6 +98,12 @@ def test_coarse_source_has_a_copy_and_its_own_attributes():
     assert not thin_faces(source).any() and not thin_faces(carrier).any()
 
 
+def test_modifiers_that_change_vertices_leave_the_source_alone():
+    source = suzanne(2)
+    carrier = measure(source, limit=0.2)
+    assert carrier != source and "ma_thickness" not in source.data.attributes
+
+
 def test_lengths_are_those_of_the_world():
     source = box()
     source.scale = (2.0, 2.0, -2.0)
@@ -146,6 +152,17 @@ def test_places_are_selected_where_one_sees_it():
     assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"CANCELLED"}
     assert bpy.ops.object.medial_axis_thin_place(which="MINIMUM") == {"FINISHED"}
     assert sum(polygon.select for polygon in source.data.polygons) == 1
+
+
+def test_thin_faces_are_selected_in_edit_mode():
+    source = grid_box()
+    measure(source, limit=0.41)
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
+        assert source.mode == "EDIT" and source.data.total_face_sel == len(source.data.polygons)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def fin():
@@ -204,6 +221,11 @@ def test_usual_limits_follow_the_unit_of_the_scene():
     assert "Unit Scale to 0.001" in note(bpy.context, source)
 
 
+def test_the_legend_has_bars():
+    pixels = np.reshape(addon("ui.base.legend")._pixels(((0.1, 0.2, 0.3), 4)), (32, 32, 4))
+    assert (pixels[:8, :, 3] == 1.0).all() and (pixels[8:, :, 3] == 0.0).all()
+
+
 def test_what_was_measured_is_exported(tmp_path):
     source = torus()
     export = bpy.ops.export_scene.medial_axis_thickness
@@ -224,6 +246,23 @@ def test_what_was_measured_is_exported(tmp_path):
     assert not (tmp_path / "again.html").exists()
 
 
+def test_a_selection_is_exported_as_one_page(tmp_path):
+    """A row for each selected object, also for one that was not measured; other formats have the active object."""
+    ring, other = torus(), box()
+    other.name = "Never measured"
+    export, path = bpy.ops.export_scene.medial_axis_thickness, tmp_path / "parts.html"
+    measure(ring, limit=0.6)
+    select(ring, other)
+    assert export(filepath=str(path)) == {"FINISHED"}
+    page = path.read_text(encoding="utf-8")
+    assert "Thickness of 2 parts" in page and "of 1 of 2 parts. 1 part could not" in page
+    assert "Expected a measurement of &#x27;Never measured&#x27;" in page
+    assert page.count("data:image/png;base64,") == 1
+    assert export(filepath=str(path), one_page=False) == {"FINISHED"}
+    assert "Thickness of Torus" in path.read_text(encoding="utf-8")
+    assert export(filepath=str(tmp_path / "parts.csv")) == {"FINISHED"}
+
+
 def test_edit_mode_and_places_without_a_measurement_are_refused():
     source = torus()
     select(source)
@@ -240,6 +279,36 @@ def test_points_without_faces_get_a_copy():
     carrier = measure(source, limit=0.1)
     assert carrier != source and len(carrier.data.polygons) > 1000
     assert "reconstructed surface" in carrier["ma_thickness_normals"]
+
+
+def test_one_undo_takes_the_measurement_away():
+    bpy.context.preferences.edit.use_global_undo = True
+    name, before = torus().name, len(bpy.data.objects)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    select(bpy.data.objects[name])
+    assert bpy.ops.object.medial_axis_thickness("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert "ma_thickness" in bpy.data.objects[name].data.attributes
+    bpy.ops.ed.undo()
+    assert len(bpy.data.objects) == before
+    assert "ma_thickness" not in bpy.data.objects[name].data.attributes
+    bpy.ops.ed.redo()
+    assert "ma_thickness" in bpy.data.objects[name].data.attributes
+
+
+def test_several_objects_each_have_their_own():
+    first, second = torus("First"), box()
+    select(first, second)
+    assert bpy.ops.object.medial_axis_thickness(limit=0.5) == {"FINISHED"}
+    carrier_of = addon("bridge.thickness.thickness_object").carrier_of
+    assert carrier_of(first) == first and carrier_of(second)["ma_source"] == second
+
+
+def test_copy_stands_for_its_source():
+    source = box()
+    carrier = measure(source, limit=0.41)
+    select(carrier)
+    assert bpy.ops.object.medial_axis_thickness(limit=0.3) == {"FINISHED"}
+    assert carrier["ma_thickness_limit"] == pytest.approx(0.3)
 
 
 def test_feature_size_on_the_source():
@@ -345,6 +414,19 @@ def test_minimum_is_seen_from_near_also_where_much_is_thin():
     assert 4 * least <= size <= 10 * least < 1.4
 
 
+def test_shares_are_written_out():
+    share_text = addon("core.samples.density").share_text
+    shown = {
+        0.0: "0 %",
+        0.00004: "0.004 %",
+        0.071: "7.1 %",
+        0.42: "42 %",
+        0.996: "100 %",
+        1.0: "100 %",
+    }
+    assert {share: share_text(share) for share in shown} == shown
+
+
 def test_one_menu_has_what_f3_looks_for():
     """F3 searches the menus, so whatever can be done with objects is in one."""
     shown = []
@@ -379,3 +461,14 @@ def test_one_menu_has_what_f3_looks_for():
     for owner in (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu):
         entries = owner._dyn_ui_initialize()
         assert sum(entry.__module__.startswith(addon().__name__) for entry in entries) == 1
+
+
+def test_metaballs_of_one_family_are_one_source(capfd):
+    bpy.ops.object.metaball_add()
+    first = bpy.context.object
+    bpy.ops.object.metaball_add(location=(1.5, 0, 0))
+    select(bpy.context.object, first)
+    assert bpy.ops.object.medial_axis(form="CLEAN") == {"FINISHED"}
+    assert "Expected points" not in capfd.readouterr().out
+    is_result = addon("bridge.axis.axis_object").is_result
+    assert [o["ma_source"] for o in bpy.data.objects if is_result(o)] == [first]
