@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "exact/held_ball.h"
 #include "levels/curves.h"
 
 namespace medial {
@@ -81,6 +82,20 @@ std::vector<Chain> chains_of(const Level& level) {
   std::vector<uint8_t> on_facet(level.vertices.size(), 0);
   for (const int32_t v : level.face_vertices) on_facet[v] = 1;
   return medial::chains_of(level.wires, on_facet);
+}
+
+// Moves the vertices of curves to where flat walls hold their balls.
+void hold(std::vector<Curve>& curves, const SamplesOnFaces& samples, const Run& run) {
+  for (Curve& curve : curves) {
+    parallel_for(static_cast<int64_t>(curve.canal.size()), run, [&](int64_t k) {
+      Canal& canal = curve.canal[k];
+      if (canal.tangent == Vec3{}) return;
+      const Touch ball = held_ball(samples, canal.centre, canal.tangent);
+      if (!(ball.radius > 0)) return;
+      canal.centre = ball.position;
+      canal.radius = ball.radius;
+    });
+  }
 }
 
 // Replaces chains by curves.
@@ -191,6 +206,7 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
   if (to_faces && h.on_faces) {
     const std::vector<Vec3> places = tips_of(*h.faces);
     const Tips tips(places, *h.faces);
+    hold(curves, *h.on_faces, {run.threads, nullptr, nullptr});
     for (size_t c = 0; c < chains.size(); ++c) {
       if (chains[c].loose[0]) tips.end(curves[c], true);
       if (chains[c].loose[1]) tips.end(curves[c], false);
