@@ -5,7 +5,7 @@ namespace medial {
 namespace {
 
 constexpr int kSteps = 24;        // work: walls of a section
-constexpr double kAsNear = 1e-9;  // of the radius; derived: rounding
+constexpr double kAsNear = 1e-6;  // of the radius; derived: rounding, 1e5 sizes away
 
 // Returns the shortest vector in the convex hull of vectors in a plane, or none if 0 is in it.
 Vec3 shortest_of_hull(std::span<const Vec3> all) {
@@ -32,7 +32,7 @@ class Climb {
 
   Touch climb() {
     const auto first = nearest(start_, HUGE_VAL);
-    if (!first || !is_inside(*first) || faces_.is_curved(first->triangle)) return {};
+    if (!first || !is_inside(*first) || is_curved(*first)) return {};
     const Touch stays{.position = start_, .radius = first->distance};
     walls_.push_back(first->triangle);
     for (int i = 0; i < kSteps; ++i) {
@@ -48,6 +48,10 @@ class Climb {
   std::optional<Foot> nearest(const Vec3& place, double than) const {
     return faces_.nearest_lifted({.from = place, .than = than},
                                  [&](const Foot& foot) { return !samples_.are_near(foot.point); });
+  }
+
+  bool is_curved(const Foot& foot) const {
+    return faces_.bulge(foot.triangle) > kAsNear * foot.distance;
   }
 
   bool is_inside(const Foot& foot) const {
@@ -103,7 +107,7 @@ class Climb {
   Touch held(const Touch& stays) const {
     for (const Foot& foot : feet_) {
       if (!touches(foot)) continue;
-      if (faces_.is_curved(foot.triangle)) return {};
+      if (is_curved(foot)) return {};
       if (!samples_.are_near(foot.point)) return stays;
     }
     return {.position = centre_, .radius = radius_};

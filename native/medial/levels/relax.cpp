@@ -4,14 +4,13 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "exact/held_ball.h"
 #include "levels/curves.h"
 
 namespace medial {
 namespace {
 
-constexpr double kNearTip = 4;      // spacings from a curve's loose end to a tip; chosen: unseen
-constexpr double kClearOfTip = 3;   // spacings from a tip: samples fix the curve; chosen: unseen
+// spacings from a tip: curves end in it, and farther away samples fix them
+constexpr double kNearTip = 4;      // chosen: unseen
 constexpr double kLikeACone = 0.2;  // deviation from the radius half way to a tip; chosen: unseen
 constexpr double kBluntest = 0.95;  // half the angle of a cone with a tip: its sine; chosen: unseen
 
@@ -28,7 +27,7 @@ class Tips {
     for (const Vec3& tip : tips_) {
       if (!(distance(tip, vertex(0).centre) < kNearTip * spacing)) continue;
       size_t clear = 1;
-      while (clear < last && distance(tip, vertex(clear).centre) < kClearOfTip * spacing) ++clear;
+      while (clear < last && distance(tip, vertex(clear).centre) < kNearTip * spacing) ++clear;
       if (!is_cone(vertex(clear).centre, vertex(0).centre, tip)) continue;
       for (size_t k = 1; k < clear; ++k) straighten(vertex(k), vertex(clear).centre, tip);
       vertex(0).centre = tip;
@@ -82,20 +81,6 @@ std::vector<Chain> chains_of(const Level& level) {
   std::vector<uint8_t> on_facet(level.vertices.size(), 0);
   for (const int32_t v : level.face_vertices) on_facet[v] = 1;
   return medial::chains_of(level.wires, on_facet);
-}
-
-// Moves the vertices of curves to where flat walls hold their balls.
-void hold(std::vector<Curve>& curves, const SamplesOnFaces& samples, const Run& run) {
-  for (Curve& curve : curves) {
-    parallel_for(static_cast<int64_t>(curve.canal.size()), run, [&](int64_t k) {
-      Canal& canal = curve.canal[k];
-      if (canal.tangent == Vec3{}) return;
-      const Touch ball = held_ball(samples, canal.centre, canal.tangent);
-      if (!(ball.radius > 0)) return;
-      canal.centre = ball.position;
-      canal.radius = ball.radius;
-    });
-  }
 }
 
 // Replaces chains by curves.
@@ -206,7 +191,6 @@ void relax(Level& level, const Hierarchy::Parts& h, bool to_faces, const Run& ru
   if (to_faces && h.on_faces) {
     const std::vector<Vec3> places = tips_of(*h.faces);
     const Tips tips(places, *h.faces);
-    hold(curves, *h.on_faces, {run.threads, nullptr, nullptr});
     for (size_t c = 0; c < chains.size(); ++c) {
       if (chains[c].loose[0]) tips.end(curves[c], true);
       if (chains[c].loose[1]) tips.end(curves[c], false);
