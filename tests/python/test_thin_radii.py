@@ -10,7 +10,6 @@ from support.thin_solids import turned, union
 
 @pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
 def test_balls_in_a_thin_band_are_no_thicker_than_it(medial, form):
-    """They were up to five times as large, as they ended at samples."""
     bar = ((1.0, 0.45, 0.45), (2.0, 0.49, 0.46))
     points, triangles = turned(union(((0.0, 0, 0), (1.0, 1, 1)), bar, ((2.0, 0, 0), (3.0, 1, 1))))
     axis = medial_axis.compute(points, triangles, form=form).axis
