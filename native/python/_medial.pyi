@@ -468,16 +468,22 @@ class Hierarchy:
     @property
     def timings(self) -> dict[str, float]:
         """Seconds of each stage, in order."""
-    def within_faces(
-        self, centres: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """(n,) the radii of balls, each no larger than leaves the faces by as much as their smooth surface bulges over
-        the flat one; without faces the given ones. Balls between samples leave what is thinner than these are apart.
+    def held_balls(
+        self,
+        centres: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        along: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 3), (n,) the balls of a curve: where flat walls hold a ball, its place and the distance to the walls.
+        Elsewhere a ball stays, and is no larger than leaves the faces by as much as their smooth surface bulges over
+        the flat one: balls between samples leave what is thinner than these are apart. Without faces all is as given.
 
         Parameters
         ----------
         centres : (n, 3) float64
         radii : (n,) float64
+        along : (n, 3) float64
+            The direction of the curve, or 0 where the place has to stay.
 
         Raises
         ------

@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "docstrings.h"
+#include "exact/held_ball.h"
 #include "levels/level.h"
 
 namespace medial::python {
@@ -12,25 +13,33 @@ namespace {
 
 py::tuple betti_tuple(const Betti& b) { return py::make_tuple(b[0], b[1], b[2]); }
 
-py::array radii_within_faces(const Hierarchy& h, const py::object& centres,
-                             const py::array_t<double, py::array::c_style>& radii) {
-  const Points rows(centres, "centres");
-  const auto places = rows.span();
+py::tuple held_balls(const Hierarchy& h, const py::object& centres,
+                     const py::array_t<double, py::array::c_style>& radii,
+                     const py::object& along) {
+  const Points rows(centres, "centres"), ways(along, "along");
+  const auto places = rows.span(), way = ways.span();
   const Frame& frame = h.parts().frame;
   const auto& samples = h.parts().on_faces;
   std::vector<double> found(radii.data(), radii.data() + radii.size());
-  if (found.size() != places.size()) {
-    throw InvalidInputError("Expected a radius for each centre, found " +
-                            std::to_string(found.size()) + "; pass as many of both");
+  std::vector<Vec3> at(places.begin(), places.end());
+  if (found.size() != places.size() || way.size() != places.size()) {
+    throw InvalidInputError("Expected a radius and a direction for each centre, found " +
+                            std::to_string(found.size()) + " and " + std::to_string(way.size()) +
+                            "; pass as many of all");
   }
   {
     const py::gil_scoped_release release;
     parallel_for(samples ? std::ssize(found) : 0, {h.parts().threads}, [&](int64_t i) {
-      const double radius = frame.inward(found[i]);
-      found[i] = frame.outward(samples->within_faces(frame.inward(places[i]), radius));
+      const Vec3 place = frame.inward(places[i]);
+      const Touch ball =
+          way[i] == Vec3{} ? Touch{} : held_ball(*samples, place, normalized(way[i]));
+      const bool holds = ball.radius > 0;
+      if (holds && ball.position != place) at[i] = frame.outward(ball.position);
+      found[i] =
+          frame.outward(holds ? ball.radius : samples->within_faces(place, frame.inward(found[i])));
     });
   }
-  return array_of<double>(std::move(found));
+  return py::make_tuple(array_of<double>(std::move(at)), array_of<double>(std::move(found)));
 }
 
 // Makes a property that is a view of an array of the hierarchy.
@@ -257,8 +266,8 @@ void bind_hierarchy(py::module_& m) {
       .def_property_readonly(
           "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
           docs::Hierarchy_timings)
-      .def("within_faces", &radii_within_faces, docs::Hierarchy_within_faces, py::arg("centres"),
-           py::arg("radii"))
+      .def("held_balls", &held_balls, docs::Hierarchy_held_balls, py::arg("centres"),
+           py::arg("radii"), py::arg("along"))
       .def(
           "even",
           [](const Hierarchy& h, double spacings, double limb, bool round_limbs, bool crisp,

@@ -97,15 +97,20 @@ def extract_level(
         axis = with_detail(axis, level, hierarchy, samples, settings.detail)
         if relaxed:
             axis = smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
-    return _within_faces(axis, hierarchy)
+    return _held(axis, hierarchy) if len(axis.edges) else axis
 
 
-def _within_faces(axis: MedialAxis, hierarchy: Any) -> MedialAxis:
-    """Return an axis whose wires have balls that stay in the faces: detail and smooth lines weigh those of samples."""
-    rows, radius = np.unique(axis.edges), axis.radius.copy()
+def _held(axis: MedialAxis, hierarchy: Any) -> MedialAxis:
+    """Return an axis whose wires have balls that the faces hold: detail and smooth lines weigh those of samples."""
+    both = np.concatenate((axis.edges, axis.edges[:, ::-1]))
+    start, end = both[np.argsort(both[:, 0], kind="stable")].T
+    rows, first, count = np.unique(start, return_index=True, return_counts=True)
+    vertices, radius = axis.vertices.copy(), axis.radius.copy()
+    along = vertices[end[first + count - 1]] - vertices[end[first]]
+    along[(count != 2) | np.isin(rows, axis.face_vertices)] = 0.0
     with native.own_errors():
-        radius[rows] = hierarchy.within_faces(axis.vertices[rows], radius[rows])
-    return replace(axis, radius=radius)
+        vertices[rows], radius[rows] = hierarchy.held_balls(vertices[rows], radius[rows], along)
+    return replace(axis, vertices=vertices, radius=radius)
 
 
 def _of_sliders(hierarchy: Any) -> tuple[dict[str, SliderRange], float | None]:

@@ -18,23 +18,13 @@ from .owners import owners, shares
 
 @dataclass(frozen=True, eq=False)
 class LoadedNet:
-    """A net, and the samples that its points own.
+    """A net, and the samples that its points own."""
 
-    Parameters
-    ----------
-    net : Net
-        Its points are the vertices of the level.
-    owner : (n,) int64
-        The point that owns each sample.
-    balls : Balls
-        The balls of the samples, by their owners.
-    spacing : (p,) float64
-        The mean spacing of the samples that each point owns; that of all samples where it owns none.
-    """
-
-    net: Net
-    owner: Longs
-    balls: Balls
+    net: Net  # Its points are the vertices of the level
+    owner: Longs  # (n,) The point that owns each sample
+    balls: Balls  # The balls of the samples, by their owners
+    # (p,) The mean spacing of the samples that each point owns; that of all samples where it owns
+    # none
     spacing: Floats
 
 

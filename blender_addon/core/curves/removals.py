@@ -18,23 +18,14 @@ from .rules import Loops, cut_loops, drop_leaves, fill_loops
 
 @dataclass(frozen=True, eq=False)
 class Removals:
-    """The edges of a net while it loses one loop or leaf after the other.
+    """The edges of a net while it loses one loop or leaf after the other."""
 
-    Parameters
-    ----------
-    edges : (e, 2) int64
-        Points of the net, the lower one first.
-    born, gone : (e,) int64
-        Each edge is there after at least `born` and less than `gone` removals. Edges are born where a loop is filled,
-        because what was attached to the loop leads to its centre.
-    count : int
-        The number of removals.
-    """
-
-    edges: Longs
+    edges: Longs  # (e, 2) Points of the net, the lower one first
+    # (e,) Each edge is there after at least `born` and less than `gone` removals. Edges are born
+    # where a loop is filled, because what was attached to the loop leads to its centre.
     born: Longs
     gone: Longs
-    count: int
+    count: int  # The number of removals
 
     def after(self, number: int) -> Longs:
         """Return the edges after a number of removals, (w, 2)."""

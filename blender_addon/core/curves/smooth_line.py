@@ -29,32 +29,16 @@ _AROUND = 2  # this many places before and after a place decide how the line ben
 
 @dataclass(frozen=True, eq=False)
 class SmoothLine:
-    """A smooth line has places in even steps, from its start to its end.
+    """A smooth line has places in even steps, from its start to its end."""
 
-    Parameters
-    ----------
-    share : (n,) float64
-        The share of the length of the given line before each place, from 0 to 1.
-    points : (n, 3) float64
-        The ends may be off those of the given line.
-    radius : (n,) float64
-    tangent : (n, 3) float64
-        Unit vectors.
-    length : float
-        The length of the smooth line.
-    curvature : (n,) float64
-        In the inverse of the unit of lengths.
-    torsion : (n,) float64
-        As curvature; it is positive if the line turns like the thread of a usual screw, and means nothing where the
-        curvature is close to 0.
-    """
-
-    share: Floats
-    points: Floats
-    radius: Floats
-    tangent: Floats
-    length: float
-    curvature: Floats
+    share: Floats  # (n,) The share of the length of the given line before each place, from 0 to 1
+    points: Floats  # (n, 3) The ends may be off those of the given line
+    radius: Floats  # (n,)
+    tangent: Floats  # (n, 3) Unit vectors
+    length: float  # The length of the smooth line
+    curvature: Floats  # (n,) In the inverse of the unit of lengths
+    # (n,) As curvature; it is positive if the line turns like the thread of a usual screw, and
+    # means nothing where the curvature is close to 0
     torsion: Floats
 
 
@@ -99,21 +83,11 @@ def smooth_line(points: Floats, radius: Floats, closed: bool) -> SmoothLine | No
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """A line to be made smooth.
+    """A line to be made smooth."""
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-        The last point of a closed line is its first. The line has a length.
-    radius : (n,) float64
-        The radii of the balls around the points.
-    closed : bool
-        The line has no ends.
-    """
-
-    points: Floats
-    radius: Floats
-    closed: bool
+    points: Floats  # (n, 3) The last point of a closed line is its first. The line has a length.
+    radius: Floats  # (n,) The radii of the balls around the points
+    closed: bool  # The line has no ends
 
 
 def smooth_between(lines: list[Course]) -> list[tuple[Floats, Floats]]:

@@ -20,18 +20,11 @@ _STRAIGHT = 0.6  # cosine of a line's largest turn; three equal angles are none;
 
 @dataclass(frozen=True)
 class Way:
-    """A way from node to node.
+    """A way from node to node."""
 
-    Parameters
-    ----------
-    wires : list of (int, bool)
-        The number of each wire, and whether the way leads along it from its end to its start.
-    closed : bool
-        The last wire leads back to where the first one starts, without a kink.
-    """
-
+    # The number of each wire, and whether the way leads along it from its end to its start
     wires: list[tuple[int, bool]]
-    closed: bool
+    closed: bool  # The last wire leads back to where the first one starts, without a kink
 
 
 def ways_through(

@@ -35,21 +35,12 @@ _PLANE = 0.02  # planes whose directions differ by less do not determine where t
 
 @dataclass(frozen=True, eq=False)
 class CarriedSheets:
-    """Sheets that reach the walls and each other.
+    """Sheets that reach the walls and each other."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    triangles : (t, 3) int32
-    part : (t,) int32
-    at_corners : (t, 3) float64
-        The thickness of the sheet of each triangle at its corners.
-    """
-
-    vertices: Floats
-    triangles: Ints
-    part: Ints
-    at_corners: Floats
+    vertices: Floats  # (v, 3)
+    triangles: Ints  # (t, 3)
+    part: Ints  # (t,)
+    at_corners: Floats  # (t, 3) The thickness of the sheet of each triangle at its corners
 
 
 def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:

@@ -14,17 +14,10 @@ from ..small_matrices import dot
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Edges of one sheet, each of which begins where the one before it ends.
+    """Edges of one sheet, each of which begins where the one before it ends."""
 
-    Parameters
-    ----------
-    rows : (k,) int64
-    closed : bool
-        The first follows the last.
-    """
-
-    rows: Longs
-    closed: bool
+    rows: Longs  # (k,)
+    closed: bool  # The first follows the last
 
 
 def chains_of(ends: Longs, part: Ints) -> list[Chain]:

@@ -17,22 +17,14 @@ ROUNDING = 1e-6  # of a length: so small a share is none; derived: rounding
 
 @dataclass(frozen=True, eq=False)
 class SheetFaces:
-    """The polygons of sheets.
+    """The polygons of sheets."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    offsets : (f + 1,) int32
-    corners : (c,) int32
-        Face i has the corners `corners[offsets[i]:offsets[i + 1]]`. Those of a sheet turn the same way.
-    part : (f,) int32
-        The sheet of each face.
-    """
-
-    vertices: Floats
-    offsets: Ints
+    vertices: Floats  # (v, 3)
+    offsets: Ints  # (f + 1,)
+    # (c,) Face i has the corners `corners[offsets[i]:offsets[i + 1]]`. Those of a sheet turn the
+    # same way.
     corners: Ints
-    part: Ints
+    part: Ints  # (f,) The sheet of each face
 
     @cached_property
     def triangles(self) -> Ints:

@@ -33,23 +33,13 @@ _LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind te
 
 @dataclass(frozen=True, eq=False)
 class RimEdges:
-    """The edges at which sheets end.
+    """The edges at which sheets end."""
 
-    Parameters
-    ----------
-    ends : (k, 2) int64
-        Rows of vertices, as the triangle of the edge turns.
-    part : (k,) int32
-    middles : (k, 3) float64
-    radius : (k,) float64
-    along, out : (k, 3) float64
-        Unit vectors along each edge and out of its sheet.
-    """
-
-    ends: Longs
-    part: Ints
-    middles: Floats
-    radius: Floats
+    ends: Longs  # (k, 2) Rows of vertices, as the triangle of the edge turns
+    part: Ints  # (k,)
+    middles: Floats  # (k, 3)
+    radius: Floats  # (k,)
+    # (k, 3) Unit vectors along each edge and out of its sheet
     along: Floats
     out: Floats
 

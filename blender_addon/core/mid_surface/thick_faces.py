@@ -21,18 +21,11 @@ Lengths = Callable[["Floats", "Ints"], "Floats"]
 
 @dataclass(frozen=True, eq=False)
 class ThickFaces:
-    """Triangles as a mesh.
+    """Triangles as a mesh."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    face_offsets : (t + 1,) int32
-    face_vertices : (3 t,) int32
-    """
-
-    vertices: Floats
-    face_offsets: Ints
-    face_vertices: Ints
+    vertices: Floats  # (v, 3)
+    face_offsets: Ints  # (t + 1,)
+    face_vertices: Ints  # (3 t,)
 
     @property
     def triangles(self) -> Ints:

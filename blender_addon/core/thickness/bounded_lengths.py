@@ -23,39 +23,25 @@ from .face_pieces import face_pieces
 
 @dataclass(frozen=True, eq=False)
 class MeasuredSurface:
-    """A surface with lengths: the samples and the triangles between them, then pieces of faces.
+    """A surface with lengths: the samples and the triangles between them, then pieces of faces."""
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-        The samples, then the corners of the pieces.
-    triangles : (f, 3) int32
-    lengths : (n,) float64
-        Infinite where there is no wall.
-    at_edge : (n,) bool
-        The point lies on a sharp edge.
-    faces : (n,) int32 or None
-        The face of the shape on which each point lies; -1 where there is none.
-    at_most : (f,) float64
-        The shortest way to an opposite wall that was found at each triangle itself; infinite where there is none.
-    face_of_triangles : (f,) int32 or None
-        The face of the shape in which each triangle lies; None where they lie in none.
-    between_walls, between_parallel : (f,) float64 or None
-        By the faces, the least ball between walls that touches each triangle, and between walls that are nearly
-        parallel; infinite where there is none.
-    at_rest : (f,) bool or None
-        By the faces, whether that ball only comes to rest against the triangle, so that no area of it is between walls.
-    """
-
-    points: Floats
-    triangles: Ints
-    lengths: Floats
-    at_edge: Flags
+    points: Floats  # (n, 3) The samples, then the corners of the pieces
+    triangles: Ints  # (f, 3)
+    lengths: Floats  # (n,) Infinite where there is no wall
+    at_edge: Flags  # (n,) The point lies on a sharp edge
+    # (n,) The face of the shape on which each point lies; -1 where there is none
     faces: Ints | None
+    # (f,) The shortest way to an opposite wall that was found at each triangle itself; infinite
+    # where there is none
     at_most: Floats
+    # (f,) The face of the shape in which each triangle lies; None where they lie in none
     face_of_triangles: Ints | None = None
+    # (f,) By the faces, the least ball between walls that touches each triangle, and between walls
+    # that are nearly parallel; infinite where there is none
     between_walls: Floats | None = None
     between_parallel: Floats | None = None
+    # (f,) By the faces, whether that ball only comes to rest against the triangle, so that no area
+    # of it is between walls
     at_rest: Flags | None = None
 
 

@@ -37,29 +37,15 @@ _BESIDE = 0.01  # chosen: unseen
 
 @dataclass(frozen=True, eq=False)
 class CloseWalls:
-    """Places whose opposite wall the measurement has missed.
+    """Places whose opposite wall the measurement has missed."""
 
-    Parameters
-    ----------
-    points : (k, 3) float64
-    distance : (k,) float64
-        The way straight through the solid.
-    share : (k,) float64
-        The share of the surface that each place represents.
-    faces : (k,) int32
-        The triangle of the shape on which each place lies.
-    sample : (k,) int32
-        The sample next to each place.
-    at_vertices : (v,) float64
-        The way through the solid at the place of a face that is next to each vertex of the shape, the least of its
-        faces; infinite where none is known.
-    """
-
-    points: Floats
-    distance: Floats
-    share: Floats
-    faces: Ints
-    sample: Ints
+    points: Floats  # (k, 3)
+    distance: Floats  # (k,) The way straight through the solid
+    share: Floats  # (k,) The share of the surface that each place represents
+    faces: Ints  # (k,) The triangle of the shape on which each place lies
+    sample: Ints  # (k,) The sample next to each place
+    # (v,) The way through the solid at the place of a face that is next to each vertex of the
+    # shape, the least of its faces; infinite where none is known
     at_vertices: Floats
 
 

@@ -37,37 +37,21 @@ _BURIED = 1e-6  # of the area: more that bounds nothing calls for samples; deriv
 
 @dataclass(frozen=True, eq=False)
 class MeasuredFaces:
-    """This says how a shape was measured without samples, in the place of `ChosenSamples`.
+    """This says how a shape was measured without samples, in the place of `ChosenSamples`."""
 
-    Parameters
-    ----------
-    reason : str
-        A sentence for people.
-    sides : Sides
-    row : (v,) int64
-        The point of the measured surface that each vertex of the shape is.
-    gaps : int
-    thinned : str
-        As of `ChosenSamples`: nothing was thinned.
-    """
-
-    reason: str
+    reason: str  # A sentence for people
     sides: Sides
-    row: Longs
+    row: Longs  # (v,) The point of the measured surface that each vertex of the shape is
     gaps: int = 0
-    thinned: str = ""
+    thinned: str = ""  # As of `ChosenSamples`: nothing was thinned
 
 
 @dataclass(frozen=True, eq=False)
 class _Balls:
-    """The balls at the points, then in the middles of triangles all of whose corners lie on edges.
+    """The balls at the points, then in the middles of triangles all of whose corners lie on edges."""
 
-    Parameters
-    ----------
-    any, wall, parallel : (k,) float64
-        The diameter of the ball, the same if it lies between walls, and if these are nearly parallel; else infinite.
-    """
-
+    # (k,) The diameter of the ball, the same if it lies between walls, and if these are nearly
+    # parallel; else infinite
     any: Floats
     wall: Floats
     parallel: Floats

@@ -23,23 +23,12 @@ _OPPOSITE = 0.05  # chosen: unseen
 
 @dataclass(frozen=True, eq=False)
 class Fans:
-    """The fans of a triangle mesh.
+    """The fans of a triangle mesh."""
 
-    Parameters
-    ----------
-    of_corners : (m, 3) int64
-        The fan of each corner of each triangle.
-    vertex : (k,) int64
-    normal : (k, 3) float64
-        Unit, outward; zero where all triangles are without area.
-    triangle : (k,) int64
-        One of the triangles of each fan.
-    """
-
-    of_corners: Longs
-    vertex: Longs
-    normal: Floats
-    triangle: Longs
+    of_corners: Longs  # (m, 3) The fan of each corner of each triangle
+    vertex: Longs  # (k,)
+    normal: Floats  # (k, 3) Unit, outward; zero where all triangles are without area
+    triangle: Longs  # (k,) One of the triangles of each fan
 
     def of_smooth_parts(self, sharp: Ints) -> Flags:
         """(k,) the fans of parts of the surface that no sharp edge bounds; `sharp` is as of `fans_of`."""

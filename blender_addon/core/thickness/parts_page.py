@@ -51,19 +51,10 @@ td svg {{ width: 18em; height: auto }} .thin {{ color: #b00; font-weight: bold }
 
 @dataclass(frozen=True)
 class PartRow:
-    """A part on the page.
+    """A part on the page."""
 
-    Parameters
-    ----------
-    cells : str
-        Its row in HTML.
-    places : int
-        How many patches are thinner than the limit; 0 where it was not measured.
-    measured : bool
-    """
-
-    cells: str
-    places: int = 0
+    cells: str  # Its row in HTML
+    places: int = 0  # How many patches are thinner than the limit; 0 where it was not measured
     measured: bool = True
 
 

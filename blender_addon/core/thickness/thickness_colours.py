@@ -24,17 +24,12 @@ _WIDEST = 1.5  # multiples of the limit to which the colours reach at least; wor
 
 @dataclass(frozen=True)
 class ThicknessScale:
-    """The lengths that the colours of thickness stand for.
+    """The lengths that the colours of thickness stand for."""
 
-    Parameters
-    ----------
-    low, high : float
-        The lengths that are yellow and blue.
-    limit : float
-        The length at which red ends and violet begins; `low` where there is no limit, so that nothing is red.
-    """
-
+    # The lengths that are yellow and blue
     low: float
+    # The length at which red ends and violet begins; `low` where there is no limit, so that nothing
+    # is red
     limit: float
     high: float
 

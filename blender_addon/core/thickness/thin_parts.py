@@ -14,53 +14,30 @@ from .measurement import Measurement
 
 @dataclass(frozen=True)
 class Patch:
-    """A connected thin part of the surface.
+    """A connected thin part of the surface."""
 
-    Parameters
-    ----------
-    place : tuple of 3 float
-        The middle of its thinnest triangle, in the frame of the shape.
-    area : float
-    minimum : float
-        The length of its thinnest triangle.
-    lowest : float
-        The smallest length of its samples; by the faces, where none is left out, the minimum.
-    """
-
+    # The middle of its thinnest triangle, in the frame of the shape
     place: tuple[float, float, float]
     area: float
-    minimum: float
+    minimum: float  # The length of its thinnest triangle
+    # The smallest length of its samples; by the faces, where none is left out, the minimum
     lowest: float
 
 
 @dataclass(frozen=True, eq=False)
 class ThinParts:
-    """The thin parts of a measurement.
-
-    Parameters
-    ----------
-    limit : float
-    minimum : float
-        The smallest length of all: never below the limit without a patch that says so.
-    patches : tuple of Patch
-        The thinnest first.
-    patch_of_triangles : (f,) int32
-        The patch of each triangle of the measured surface, also where it is filled in; -1 where there is none.
-    patch_of_faces : (m,) int32
-        The patch of each face of the shape: that of the triangle that represents it.
-    area : float
-        The area of all patches.
-    share : float
-        Their share of the surface.
-    """
+    """The thin parts of a measurement."""
 
     limit: float
-    minimum: float
-    patches: tuple[Patch, ...]
+    minimum: float  # The smallest length of all: never below the limit without a patch that says so
+    patches: tuple[Patch, ...]  # The thinnest first
+    # (f,) The patch of each triangle of the measured surface, also where it is filled in; -1 where
+    # there is none
     patch_of_triangles: Ints
+    # (m,) The patch of each face of the shape: that of the triangle that represents it
     patch_of_faces: Ints
-    area: float
-    share: float
+    area: float  # The area of all patches
+    share: float  # Their share of the surface
 
     @property
     def told(self) -> bool:

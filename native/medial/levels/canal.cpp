@@ -14,10 +14,9 @@ constexpr double kBand = 0.1;  // of the radius; farther samples are on other wa
 constexpr double kFarthest = 0.05;  // of the radius; no step moves the centre farther; chosen: axis
 // share of the radius; a fit that would move so far fits something else
 constexpr double kTooFar = 0.15;  // chosen: axis
-constexpr double kSteep = 0.7;   // slope from which trust falls; it is 0 at kSteepest; chosen: axis
-constexpr int kFewest = 12;      // samples that a fit needs
-constexpr int kNewtonSteps = 1;  // steps of Newton's method
-constexpr double kKept = 0.25;   // share of a cone's curvature that stays at least; chosen: axis
+constexpr double kSteep = 0.7;  // slope from which trust falls; it is 0 at kSteepest; chosen: axis
+constexpr int kFewest = 12;     // samples that a fit needs
+constexpr double kKept = 0.25;  // share of a cone's curvature that stays at least; chosen: axis
 // share of a column; smaller pivots mean that the samples do not determine all unknowns
 constexpr double kPivot = 1e-9;  // derived: rounding
 
@@ -164,7 +163,7 @@ class Fit {
 
   // Both functions return the place, in half widths, of the ball that is nearest to a sample, where
   // distance - radius is least: the first on the cone that is tangent to the canal, the second on
-  // the canal itself, by Newton's method from there.
+  // the canal itself, by a step of Newton's method from there.
   double place_on_cone(const Vec3& to) const {
     const double s = dot(to, from_.tangent), d = length(to - s * from_.tangent),
                  slope = from_.slope;
@@ -172,16 +171,13 @@ class Fit {
   }
 
   double place_on_canal(const Vec3& to, double t) const {
-    for (int step = 0; step < kNewtonSteps; ++step) {
-      const Vec3 out = to - t * half_width_ * from_.tangent - t * t * from_.bend,
-                 way = half_width_ * from_.tangent + 2 * t * from_.bend;
-      const double size = length(out), towards = dot(out, way) / size,
-                   first = -towards - slope_ - 2 * t * flare_,
-                   straight = (squared_length(way) - towards * towards) / size,
-                   second = straight - 2 * dot(out, from_.bend) / size - 2 * flare_;
-      t -= first / std::max(second, kKept * straight);
-    }
-    return t;
+    const Vec3 out = to - t * half_width_ * from_.tangent - t * t * from_.bend,
+               way = half_width_ * from_.tangent + 2 * t * from_.bend;
+    const double size = length(out), towards = dot(out, way) / size,
+                 first = -towards - slope_ - 2 * t * flare_,
+                 straight = (squared_length(way) - towards * towards) / size,
+                 second = straight - 2 * dot(out, from_.bend) / size - 2 * flare_;
+    return t - first / std::max(second, kKept * straight);
   }
 
   // Returns how evenly the samples surround the axis, from 0 to 1, by their directions u. It is 0

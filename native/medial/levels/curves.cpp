@@ -12,11 +12,10 @@ constexpr int kSmoothings = 20, kFits = 3;
 // share of the radius; after a smaller move another fit changes about its square
 constexpr double kSettled = 0.002;  // chosen: axis
 // share of the radius; smaller errors of a straight axis need no other fit
-constexpr double kStraight = 2e-5;    // chosen: axis
-constexpr double kStep = 0.25;        // between new vertices, in spacings; chosen: axis
-constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings; chosen: axis
-constexpr size_t kNeighbours = 12;    // samples that determine the spacing
-constexpr int64_t kFewVertices = 16;  // given to a thread at a time
+constexpr double kStraight = 2e-5;  // chosen: axis
+constexpr double kStep = 0.25;      // between new vertices, in spacings; chosen: axis
+constexpr double kHalfWidth = 2;    // of the piece that is fitted, in spacings; chosen: axis
+constexpr size_t kNeighbours = 12;  // samples that determine the spacing
 
 // Returns the spacing of the samples near a place, the square root of the area of one sample.
 double spacing_at(const PointTree& samples, const Vec3& place) {
@@ -207,7 +206,7 @@ class Fitting {
   // New canals replace the old ones only when all of them are computed.
   template <class Function>
   void for_all(const Run& run, const Function& function) {
-    parallel_for(static_cast<int64_t>(vertices_.size()), run, function, kFewVertices);
+    parallel_for(static_cast<int64_t>(vertices_.size()), run, function, 16);
     for (size_t i = 0; i < vertices_.size(); ++i) {
       curves_[vertices_[i].curve].canal[vertices_[i].vertex] = found_[i];
     }

@@ -9,8 +9,8 @@
 namespace medial {
 namespace {
 
-constexpr double kNearTip = 4;      // spacings from a curve's loose end to a tip; chosen: unseen
-constexpr double kClearOfTip = 3;   // spacings from a tip: samples fix the curve; chosen: unseen
+// spacings from a tip: curves end in it, and farther away samples fix them
+constexpr double kNearTip = 4;      // chosen: unseen
 constexpr double kLikeACone = 0.2;  // deviation from the radius half way to a tip; chosen: unseen
 constexpr double kBluntest = 0.95;  // half the angle of a cone with a tip: its sine; chosen: unseen
 
@@ -27,7 +27,7 @@ class Tips {
     for (const Vec3& tip : tips_) {
       if (!(distance(tip, vertex(0).centre) < kNearTip * spacing)) continue;
       size_t clear = 1;
-      while (clear < last && distance(tip, vertex(clear).centre) < kClearOfTip * spacing) ++clear;
+      while (clear < last && distance(tip, vertex(clear).centre) < kNearTip * spacing) ++clear;
       if (!is_cone(vertex(clear).centre, vertex(0).centre, tip)) continue;
       for (size_t k = 1; k < clear; ++k) straighten(vertex(k), vertex(clear).centre, tip);
       vertex(0).centre = tip;
