@@ -118,25 +118,21 @@ def is_coarse(shape: Shape, settings: Settings) -> bool:
 
 
 def coarse(shape: Shape, settings: Settings) -> tuple[Shape, Settings]:
-    """Return a shape and settings with few points and samples, for a quick answer.
+    """Return a shape and settings with few samples, for a quick answer; the points in each cell of a grid become one.
 
-    The vertices in each cell of a grid become one, and so do points. Faces that were closed stay so, as a sum of faces,
-    and decide what is inside as before.
+    Faces that were closed stay so, as a sum of faces, and decide what is inside as before.
     """
     if len(shape.triangles):
         count = min(settings.samples, COARSE)
         settings = replace(settings, sampling=SamplingMode.SURFACE, samples=count, spacing=0.0)
-    return _of_few_points(shape), replace(settings, crisp=False, pairs=False)
-
-
-def _of_few_points(shape: Shape) -> Shape:
-    """Return the shape with the first of its points in each cell of a grid; a shape of few points as it is."""
+    settings = replace(settings, crisp=False, pairs=False)
     if len(shape.points) <= COARSE:
-        return shape
+        return shape, settings
     _, rows, cell = np.unique(_cells(shape.points, COARSE), return_index=True, return_inverse=True)
     corners = cell[shape.triangles].astype(np.int32)
     faces = corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
-    return replace(_at_rows(shape, rows.astype(np.int32)), triangles=faces, sharp_edges=None)
+    few = _at_rows(shape, rows.astype(np.int32))
+    return replace(few, triangles=faces, sharp_edges=None), settings
 
 
 def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
