@@ -352,10 +352,6 @@ def test_thinning_is_deterministic_and_close():
     assert far < 3 * spacing
 
 
-def test_equal_points_are_one():
-    assert spread_rows(np.ones((500, 3)), 100).tolist() == [0]
-
-
 def test_a_quick_answer_has_few_points_and_faces_that_stay_closed():
     points, faces = meshes.icosphere(6)
     few, settings = coarse(Shape(points, faces), Settings(samples=10_000))
@@ -364,6 +360,7 @@ def test_a_quick_answer_has_few_points_and_faces_that_stay_closed():
     few, _ = coarse(Shape(points, faces[:0]), Settings())
     assert (few.points == points[few.rows]).all() and len(few.points) <= COARSE
     assert is_coarse(few, Settings()), "the exact answer needs no more"
+    assert spread_rows(np.ones((500, 3)), 100).tolist() == [0], "equal points are one"
     points[7, 1] = np.nan
     with pytest.raises(InvalidInputError, match="Expected finite coordinates"):
         spread_rows(points, 100)
