@@ -497,8 +497,7 @@ def test_a_first_click_shows_a_draft_whose_place_the_exact_axis_takes():
 
 
 def test_what_is_quick_has_no_draft_but_many_points_have_one(monkeypatch):
-    assert drafted(ellipsoid(), sampling="VERTICES") is None
-    assert drafted(scan()) is None
+    assert drafted(ellipsoid(), sampling="VERTICES") is drafted(scan()) is None
     monkeypatch.setattr(addon("core.samples.thinning"), "COARSE", 500)
     draft = drafted(scan("Many"))
     assert draft["ma_draft"] and 250 < draft["ma_points"] <= 500
