@@ -480,18 +480,6 @@ class Settings(Options):
             return ("sharp_angle", "smooth")
         return ("sharp_angle",) if self.form_of_side is Form.CLEAN else ()
 
-    @property
-    def coarse(self) -> Settings:
-        """The same with few samples of the faces, for a quick answer."""
-        return replace(
-            self,
-            sampling=SamplingMode.SURFACE,
-            samples=min(self.samples, COARSE),
-            spacing=0.0,
-            crisp=False,
-            pairs=False,
-        )
-
     def with_side(self) -> Settings:
         """The same with a side that is not AUTOMATIC."""
         return replace(self, side=Side.INNER) if self.side is Side.AUTOMATIC else self

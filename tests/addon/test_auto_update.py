@@ -42,12 +42,13 @@ def update(result, coarse=False):
     bpy.context.view_layer.update()
     settings = auto.wish(bpy.context, result)[1]
     read = live.read_live(result, bpy.context.view_layer.depsgraph)
-    live.write_live(read, computed(read, settings.coarse if coarse else settings), coarse)
+    live.write_live(read, computed(read, settings, "draft" if coarse else "shown"), coarse)
 
 
-def computed(read, settings):
+def computed(read, settings, what="shown"):
     limit = addon("ui.settings.preferences").memory_limit()
-    return addon("bridge.axis.shown_axis").compute_shown(read.shape, settings, read.look, limit)
+    compute = getattr(addon("bridge.axis.shown_axis"), f"compute_{what}")
+    return compute(read.shape, settings, read.look, limit)
 
 
 def test_it_is_off_at_first_and_watches_nothing_in_the_background():

@@ -456,10 +456,9 @@ def operator_of(**settings):
         name: getattr(option.default, "name", option.default) for name, option in options.items()
     }
     kind = addon("ui.axis.operators").OBJECT_OT_medial_axis
-    own = {name: getattr(kind, name) for name in ("draft", "write", "write_draft", "_show_draft")}
     thing = SimpleNamespace(**(values | settings))
-    for name, function in own.items():
-        setattr(thing, name, MethodType(function, thing))
+    for name in ("draft", "write", "write_draft", "_show_draft"):
+        setattr(thing, name, MethodType(getattr(kind, name), thing))
     return thing
 
 
@@ -497,6 +496,8 @@ def test_a_first_click_shows_a_draft_whose_place_the_exact_axis_takes():
     assert figures.why_outdated(bpy.context, exact) == ""
 
 
-def test_what_is_quick_has_no_draft():
-    assert drafted(ellipsoid(), sampling="VERTICES") is None
-    assert drafted(scan()) is None
+def test_what_is_quick_has_no_draft_but_many_points_have_one(monkeypatch):
+    assert drafted(ellipsoid(), sampling="VERTICES") is drafted(scan()) is None
+    monkeypatch.setattr(addon("core.samples.thinning"), "COARSE", 500)
+    draft = drafted(scan("Many"))
+    assert draft["ma_draft"] and 250 < draft["ma_points"] <= 500

@@ -19,6 +19,7 @@ from scene import (
     torus,
     world_positions,
 )
+from test_rows import rows, seen
 from test_transforms import PLACES, place
 
 
@@ -201,6 +202,7 @@ def test_panel_knows_the_surface():
     properties = addon("ui.settings.properties")
     assert properties.shown_surface(bpy.context) == surface_of(source)
     assert properties.shown_result(bpy.context) is None
+    assert any(row[0] == "Triangles" for row in rows(seen())), "Result has its figures"
     select(source)
     assert properties.shown_surface(bpy.context) == surface_of(source)
     compute()

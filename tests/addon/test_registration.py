@@ -36,22 +36,20 @@ def menu_texts(menu):
     return [function.__module__ for function in menu._dyn_ui_initialize()]
 
 
+TYPES = """
+OBJECT_OT_medial_axis OBJECT_OT_medial_axis_sampling_report OBJECT_OT_tight_cocone_surface
+OBJECT_OT_medial_axis_cancel EXPORT_SCENE_OT_medial_axis OBJECT_OT_medial_axis_sequence
+IMPORT_SCENE_OT_medial_axis_sequence VIEW3D_PT_medial_axis_sequence VIEW3D_PT_medial_axis
+VIEW3D_PT_medial_axis_sampling
+"""
+
+
 def present():
     return {
-        "operator": hasattr(bpy.types, "OBJECT_OT_medial_axis"),
-        "report": hasattr(bpy.types, "OBJECT_OT_medial_axis_sampling_report"),
-        "surface": hasattr(bpy.types, "OBJECT_OT_tight_cocone_surface"),
-        "cancel": hasattr(bpy.types, "OBJECT_OT_medial_axis_cancel"),
-        "export": hasattr(bpy.types, "EXPORT_SCENE_OT_medial_axis"),
-        "sequence": hasattr(bpy.types, "OBJECT_OT_medial_axis_sequence"),
-        "sequence import": hasattr(bpy.types, "IMPORT_SCENE_OT_medial_axis_sequence"),
-        "sequence panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sequence"),
+        **{name: hasattr(bpy.types, name) for name in TYPES.split()},
         "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
         "sequence menu": f"{MODULE}.ui.axis.compute_sequence"
         in menu_texts(bpy.types.TOPBAR_MT_file_import),
-        "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
-        "sampling panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sampling"),
-        "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
         "settings": hasattr(bpy.types.Scene, "medial_axis"),
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
         "object menu": f"{MODULE}.ui.panels.menus" in menu_texts(bpy.types.VIEW3D_MT_object),

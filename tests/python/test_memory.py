@@ -19,7 +19,7 @@ from medial_axis.core.machine.memory_limit import CURVE, MemoryLimit, Use, memor
 from medial_axis.core.rebuild.reconstruction import reconstruct
 from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.sampling_report import report_sampling
-from medial_axis.core.samples.thinning import fewer_samples, spread_rows
+from medial_axis.core.samples.thinning import COARSE, coarse, fewer_samples, is_coarse, spread_rows
 from medial_axis.core.settings import (
     MEGABYTE,
     OPTIONS,
@@ -31,6 +31,7 @@ from medial_axis.core.settings import (
 )
 from medial_axis.core.shape.shape import Shape
 from scipy.spatial import ConvexHull, cKDTree
+from support import meshes
 from support.clouds import on_ellipsoid
 
 THIN = AboveLimit.THIN
@@ -174,7 +175,7 @@ def test_limit_in_megabytes_is_the_limit(room):
     assert caught.value.points == most + 1
 
 
-def test_automatic_is_what_is_free(room):
+def test_automatic_is_what_is_free(room, monkeypatch):
     room(5000)
     MemoryLimit().check(5000)
     with pytest.raises(MemoryLimitError, match="the free memory of .* MB, found 5,001, which need"):
@@ -183,11 +184,8 @@ def test_automatic_is_what_is_free(room):
     most = MemoryLimit().points
     room(most + 1)
     assert MemoryLimit().points == most
-
-
-def test_where_nothing_is_known_nothing_is_refused(monkeypatch):
     monkeypatch.setattr(memory, "free_memory", lambda: None)
-    MemoryLimit().check(10**8)
+    MemoryLimit().check(10**8)  # where nothing is known, nothing is refused
 
 
 def test_kept_analyses_make_way_for_a_new_one(room):
@@ -354,12 +352,15 @@ def test_thinning_is_deterministic_and_close():
     assert far < 3 * spacing
 
 
-def test_equal_points_are_one():
-    assert spread_rows(np.ones((500, 3)), 100).tolist() == [0]
-
-
-def test_points_that_are_not_finite_are_not_thinned():
-    points = egg(500)
+def test_a_quick_answer_has_few_points_and_faces_that_stay_closed():
+    points, faces = meshes.icosphere(6)
+    few, settings = coarse(Shape(points, faces), Settings(samples=10_000))
+    assert COARSE / 2 < len(few.points) <= COARSE == settings.samples
+    assert few.open_edges == 0 and few.volume > 4.1
+    few, _ = coarse(Shape(points, faces[:0]), Settings())
+    assert (few.points == points[few.rows]).all() and len(few.points) <= COARSE
+    assert is_coarse(few, Settings()), "the exact answer needs no more"
+    assert spread_rows(np.ones((500, 3)), 100).tolist() == [0], "equal points are one"
     points[7, 1] = np.nan
     with pytest.raises(InvalidInputError, match="Expected finite coordinates"):
         spread_rows(points, 100)
@@ -402,9 +403,6 @@ def test_command_line_says_what_it_expects(here, capsys):
     assert cli.main(["egg.npy", "egg.ma", "--memory-limit", "-5"]) == cli.USAGE
     assert "Expected memory_limit from 0 to" in capsys.readouterr().err
     assert cli.main(["egg.npy", "egg.ma", "--above-limit", "swap"]) == cli.USAGE
-
-
-# --- before, not after
 
 
 def test_a_cloud_that_needs_too_much_is_not_unpacked(tmp_path, capsys, monkeypatch):

@@ -67,11 +67,6 @@ def is_at_rest(result: bpy.types.Object) -> bool:
     return result.mode == source.mode == "OBJECT" and source.visible_get()
 
 
-def is_slow(result: bpy.types.Object) -> bool:
-    """Return whether the last computation took more than a second, so that a coarse answer comes first."""
-    return result.get(stored.SECONDS, 0.0) > 1.0
-
-
 def read_live(result: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> LiveSource:
     """Read the source of a result as it is now."""
     source = source_of(result)

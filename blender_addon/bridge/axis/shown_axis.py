@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ...core.axis.cut import pieces, without_shards, without_small_pieces
 from ...core.axis.medial_axis import MedialAxis
 from ...core.machine.memory_limit import MemoryLimit
 from ...core.machine.progress import Progress
+from ...core.samples.thinning import coarse
 from ...core.settings import Look, Settings
 from ...core.shape.shape import Shape
 from ..mesh.axis_arrays import AxisArrays, arrays_of
@@ -91,6 +93,11 @@ def compute_shown(
         return Computed(found, None)
     box = box_of(found.chosen.samples.points)
     return Computed(found, shown_axis(found.axis, box, look))
+
+
+def compute_draft(shape: Shape, settings: Settings, *more: Any) -> Computed:
+    """Compute the axis of few points or samples of a shape, as `compute_shown`."""
+    return compute_shown(*coarse(shape, settings), *more)
 
 
 def box_of(points: np.ndarray) -> list[float]:

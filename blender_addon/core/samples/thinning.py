@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints
 from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes
-from ..settings import OPTIONS, AboveLimit, SamplingMode, Settings
+from ..settings import COARSE, OPTIONS, AboveLimit, SamplingMode, Settings
 from ..shape.shape import Shape
 from .prepare import Input
 from .sample_spacing import first_pass
@@ -40,10 +40,8 @@ def thinned_rows(points: Floats, limit: MemoryLimit, error: MemoryLimitError) ->
         A coordinate is not finite.
     """
     rows = spread_rows(points, _most(limit, error))
-    return rows, (
-        f"{error.points:,} points need about {_needed(limit, error)}, more than {limit}: {len(rows):,} of "
-        f"the {len(points):,} points, evenly spread, were kept"
-    )
+    kept = f"{len(rows):,} of the {len(points):,} points, evenly spread, were kept"
+    return rows, f"{_too_many(limit, error)}: {kept}"
 
 
 def thinned(given: Input, limit: MemoryLimit, error: MemoryLimitError) -> Input:
@@ -54,10 +52,13 @@ def thinned(given: Input, limit: MemoryLimit, error: MemoryLimitError) -> Input:
         first = first_pass(shape, settings)
         return replace(given, settings=settings, first=first, thinned=sentence)
     rows, sentence = thinned_rows(shape.points, limit, error)
-    normals = None if shape.normals is None else shape.normals[rows]
-    of_caller = rows if shape.rows is None else shape.rows[rows]
-    shape = replace(shape, points=shape.points[rows], normals=normals, rows=of_caller)
-    return replace(given, shape=shape, thinned=sentence)
+    return replace(given, shape=_at_rows(shape, rows), thinned=sentence)
+
+
+def _at_rows(cloud: Shape, rows: Ints) -> Shape:
+    normals = None if cloud.normals is None else cloud.normals[rows]
+    of_caller = rows if cloud.rows is None else cloud.rows[rows]
+    return replace(cloud, points=cloud.points[rows], normals=normals, rows=of_caller)
 
 
 def fewer_samples(
@@ -75,10 +76,7 @@ def fewer_samples(
         As for `thinned_rows`.
     """
     most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
-    sentence = (
-        f"{error.points:,} points need about {_needed(limit, error)}, more than {limit}: at most {most:,} "
-        "samples of the surface were taken"
-    )
+    sentence = f"{_too_many(limit, error)}: at most {most:,} samples of the surface were taken"
     if settings.sampling is SamplingMode.VERTICES or error.points == vertices > most:
         settings, first = replace(settings, sampling=SamplingMode.SURFACE), vertices
     if first > most:
@@ -93,20 +91,48 @@ def spread_rows(points: Floats, most: int) -> Ints:
 
     Every point is nearer to one of them than the diagonal of a cell.
     """
+    return np.sort(np.unique(_cells(points, most), return_index=True)[1]).astype(np.int32)
+
+
+def _cells(points: Floats, most: int) -> NDArray[np.int64]:
+    """Return the number of the cell that each point is in, (n,), of the finest grid with points in at most so many."""
     if not np.isfinite(points).all():
         raise InvalidInputError(
             "Expected finite coordinates, found NaN or infinity; repair or remove these points"
         )
     low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
 
-    def rows(step: int) -> NDArray[np.intp]:
-        cells = int(2 ** (step / _PER_OCTAVE))
-        x, y, z = np.minimum((points - low) * (cells / extent), cells - 1).astype(np.int64).T
-        return np.unique((x * cells + y) * cells + z, return_index=True)[1]
+    def cells(step: int) -> NDArray[np.int64]:
+        count = int(2 ** (step / _PER_OCTAVE))
+        x, y, z = np.minimum((points - low) * (count / extent), count - 1).astype(np.int64).T
+        return (x * count + y) * count + z
 
     steps = range(_PER_OCTAVE * _OCTAVES)
-    finest = bisect_right(steps, most, key=lambda step: len(rows(step))) - 1
-    return np.sort(rows(finest)).astype(np.int32)
+    return cells(bisect_right(steps, most, key=lambda step: len(np.unique(cells(step)))) - 1)
+
+
+def is_coarse(shape: Shape, settings: Settings) -> bool:
+    """Return whether an analysis takes few points anyway: those of the object."""
+    by_faces = len(shape.triangles) > 0 and settings.sampling is not SamplingMode.VERTICES
+    return not by_faces and len(shape.points) <= COARSE
+
+
+def coarse(shape: Shape, settings: Settings) -> tuple[Shape, Settings]:
+    """Return a shape and settings with few samples, for a quick answer; the points in each cell of a grid become one.
+
+    Faces that were closed stay so, as a sum of faces, and decide what is inside as before.
+    """
+    if len(shape.triangles):
+        count = min(settings.samples, COARSE)
+        settings = replace(settings, sampling=SamplingMode.SURFACE, samples=count, spacing=0.0)
+    settings = replace(settings, crisp=False, pairs=False)
+    if len(shape.points) <= COARSE:
+        return shape, settings
+    _, rows, cell = np.unique(_cells(shape.points, COARSE), return_index=True, return_inverse=True)
+    corners = cell[shape.triangles].astype(np.int32)
+    faces = corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+    few = _at_rows(shape, rows.astype(np.int32))
+    return replace(few, triangles=faces, sharp_edges=None), settings
 
 
 def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
@@ -117,5 +143,5 @@ def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
     return most
 
 
-def _needed(limit: MemoryLimit, error: MemoryLimitError) -> str:
-    return megabytes(limit.needed(error.points))
+def _too_many(limit: MemoryLimit, error: MemoryLimitError) -> str:
+    return f"{error.points:,} points need about {megabytes(limit.needed(error.points))}, more than {limit}"

@@ -22,17 +22,18 @@ from ...bridge.axis.live_result import (
     LIVE,
     can_be_live,
     is_at_rest,
-    is_slow,
     live_results,
     read_live,
     write_live,
 )
-from ...bridge.axis.shown_axis import compute_shown
+from ...bridge.axis.shown_axis import compute_draft, compute_shown
+from ...bridge.mesh import stored
 from ...bridge.nodes.wires import wires_group
 from ...bridge.objects.output_object import source_of
 from ...bridge.objects.source_state import differs, state_of
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task
+from ...core.samples.thinning import is_coarse
 from ...core.settings import ANALYSED
 from ..base import current_job
 from ..base.translation import IN_CONTEXT
@@ -208,17 +209,14 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
             self._read = read_live(result, context.view_layer.depsgraph)
         except MedialAxisError as error:
             return self._refuse(context, f"'{self._name}': {error}")
-        settings = self._wish[1]
-        coarse = settings.coarse
-        has_faces = len(self._read.shape.triangles) > 0
-        self._stages = [settings]
-        if is_slow(result) and has_faces:
-            self._stages.insert(0, coarse)
+        is_slow = result.get(stored.SECONDS, 0.0) > 1.0
+        has_draft = is_slow and not is_coarse(self._read.shape, self._wish[1])
+        self._stages = [compute_draft, compute_shown] if has_draft else [compute_shown]
         return self.watch(context, self._tasks(), "medial axis")
 
     def _tasks(self):
-        read, settings = self._read, self._stages.pop(0)
-        work = partial(compute_shown, read.shape, settings, read.look, memory_limit())
+        read, compute = self._read, self._stages.pop(0)
+        work = partial(compute, read.shape, self._wish[1], read.look, memory_limit())
         return [Task(self._name, work)]
 
     def meanwhile(self):

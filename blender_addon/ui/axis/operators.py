@@ -16,7 +16,7 @@ from ...bridge.axis.report_object import (
     write_on_source,
     write_report,
 )
-from ...bridge.axis.shown_axis import compute_shown
+from ...bridge.axis.shown_axis import compute_draft, compute_shown
 from ...bridge.mesh import stored
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.surface_object import check_surface_writable, is_surface, write_surface
@@ -26,14 +26,13 @@ from ...core.errors import InvalidInputError, MedialAxisError
 from ...core.rebuild.reconstruction import reconstruct
 from ...core.samples.mesh_parts import split
 from ...core.samples.sampling_report import report_sampling
+from ...core.samples.thinning import is_coarse
 from ...core.settings import (
-    COARSE,
     DIVISION,
     LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
     Form,
-    SamplingMode,
     applies_to_form,
 )
 from ..base import current_job
@@ -89,12 +88,11 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         return partial(compute_shown, shape, settings_from(self), look_from(self), memory_limit())
 
     def draft(self, thing, shape):
-        """The first click on faces shows an axis of few samples, unless the exact one needs no more."""
-        few = self.sampling == SamplingMode.VERTICES.name and len(shape.points) <= COARSE
-        if few or not len(shape.triangles) or result_of(thing) is not None:
+        """The first click shows an axis of few samples, unless the exact one needs no more."""
+        settings = settings_from(self)
+        if result_of(thing) is not None or is_coarse(shape, settings):
             return None
-        coarse = settings_from(self).coarse
-        return partial(compute_shown, shape, coarse, look_from(self), memory_limit())
+        return partial(compute_draft, shape, settings, look_from(self), memory_limit())
 
     def write_draft(self, thing, found, frame):
         made = self.write(thing, found, frame)

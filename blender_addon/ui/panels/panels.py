@@ -57,14 +57,14 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
 
 
 class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
-    """The most important figures of the result, and files"""
+    """The most important figures of the result or of a reconstructed surface, and files"""
 
     bl_label = "Result"
     bl_idname = RESULT
 
     @classmethod
     def poll(cls, context):
-        return shown_thing(context) is not None
+        return (shown_thing(context) or shown_surface(context)) is not None
 
     def draw_header_preset(self, context):
         if result := shown_result(context):
@@ -73,13 +73,16 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         result, report, frame = shown_result(context), shown_report(context), shown_frame(context)
-        draw_colours(context, layout)
+        if shown_thing(context):
+            draw_colours(context, layout)
         if frame is not None:
             draw_sequence(context, layout, frame)
         if result is not None:
             draw_result(context, layout, result)
         if report is not None:
             draw_report(context, layout, report)
+        if surface := shown_surface(context):
+            draw_surface(context, layout, surface)
         if result is not None:
             layout.operator("export_scene.medial_axis", icon="EXPORT")
 
@@ -99,20 +102,6 @@ class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
             draw_details(context, self.layout, result)
         if report := shown_report(context):
             draw_report_details(context, self.layout, report)
-
-
-class VIEW3D_PT_medial_axis_surface(Inside, bpy.types.Panel):
-    """Figures of the reconstructed surface"""
-
-    bl_label = "Surface"
-    bl_idname = "VIEW3D_PT_medial_axis_surface"
-
-    @classmethod
-    def poll(cls, context):
-        return shown_surface(context) is not None
-
-    def draw(self, context):
-        draw_surface(context, self.layout, shown_surface(context))
 
 
 def _settle_when_changed(context):
@@ -153,11 +142,9 @@ def _draw_settings(context, layout):
 
 def _thresholds(result):
     """The two thresholds, and whether each does little for a result: the other one keeps what it drops."""
-    if result is None:
-        return {"theta": False, "rho": False}
+    only = {"theta": stored.ONLY_RATIO, "rho": stored.ONLY_ANGLE}
     return {
-        "theta": result.get(stored.ONLY_RATIO, 0.0) > _BINDS,
-        "rho": result.get(stored.ONLY_ANGLE, 0.0) > _BINDS,
+        name: result is not None and result.get(key, 0.0) > _BINDS for name, key in only.items()
     }
 
 

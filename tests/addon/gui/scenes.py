@@ -461,7 +461,7 @@ def undo_is_followed():
 
 def coarse_comes_first():
     live_result()["ma_seconds"] = 5.0  # as if it were slow
-    addon("core.settings").COARSE = 500
+    addon("core.samples.thinning").COARSE = 500
     bpy.context.object.scale.z = 1.5
     yield job_exists
     seen = set()
