@@ -23,7 +23,7 @@ from medial_axis.core.shape.shape import Shape
 from support import distance, mid_surfaces, reference, topology
 from support.meshes import write_off
 from support.thick_meshes import block, lathe, pipe
-from support.thin_solids import union
+from support.thin_solids import turned, union
 
 
 def sheets_of(mesh, settings=Settings(samples=4000), **wanted):
@@ -56,6 +56,19 @@ def off(known, places):
 def test_sheets_of_flat_walls(name):
     known = mid_surfaces.ALL[name]()
     check_flat(known, sheets_of(known.mesh))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", mid_surfaces.FLAT[:7])
+def test_sheets_of_flat_walls_at_the_defaults(name, seed):
+    """In a random pose, for which the sheets are turned back."""
+    known = mid_surfaces.ALL[name]()
+    points = np.asarray(known.mesh[0], float)
+    mesh = turned(known.mesh, seed) if seed else known.mesh
+    pose = np.linalg.lstsq(points, mesh[0], rcond=None)[0]
+    found = sheets_of(mesh, Settings())
+    check_flat(known, replace(found, vertices=found.vertices @ np.linalg.inv(pose)))
 
 
 def check_flat(known, found):
@@ -147,6 +160,19 @@ def test_plates_thinner_than_samples_are_apart_reach_their_walls(sides, t):
     assert areas(found).sum() == pytest.approx(exact, rel=0.005)
 
 
+@pytest.mark.slow
+def test_a_shell_with_two_holes_has_its_area():
+    """A zone of a sphere: what lies between 25 and 155 degrees of the pole."""
+    known = mid_surfaces.holed_shell()
+    found = sheets_of(known.mesh)
+    triangles = found.triangles
+    assert found.sheets == topology.components(triangles) == 1 and topology.euler(triangles) == 0
+    exact = 4 * np.pi * np.cos(np.radians(25))
+    assert areas(found).sum() == pytest.approx(exact, rel=0.01)
+    np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
+    assert found.share == pytest.approx(1.0, abs=0.01)
+
+
 def test_a_leaf_tapers_to_its_edge():
     """Its middle is a disc; the caps are so flat that the thickness falls with the square of the radius."""
     known = mid_surfaces.leaf()
@@ -206,6 +232,11 @@ def test_thick_parts_are_kept_by_choice(tmp_path, capsys):
     source = write_off(tmp_path / "part.off", mesh)
     assert run(source, tmp_path / "part.obj", "--keep-thick") == cli.DONE
     assert (tmp_path / "part_thick.stl").stat().st_size == 84 + 50 * len(found.thick.triangles)
+
+
+def test_a_thin_solid_has_no_thick_parts():
+    for name in ("profile_i", "bent_sheet"):
+        assert not len(sheets_of(mid_surfaces.ALL[name]().mesh, keep_thick=True).thick.triangles)
 
 
 def test_sheets_that_should_meet_and_do_not_are_told(monkeypatch):
@@ -411,11 +442,11 @@ def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():
     np.testing.assert_allclose(found.thickness, 0.8, rtol=0.002)
 
 
-def test_the_sheets_of_a_pot_stay_in_it():
+@pytest.mark.parametrize("around, low, wall", [(32, 0.7, 0.05), (48, 0.6, 0.035)])
+def test_the_sheets_of_a_pot_stay_in_it(around, low, wall):
     """Its rim left it by a tenth of the wall; what is left is how far its smooth surface leaves its faces."""
-    wall = 0.05
-    profile = [(0, 0), (0.7, 0), (1, 1.2), (1 - wall, 1.2), (0.7 - wall, wall), (0, wall)]
-    mesh = lathe(profile, 32)
+    profile = [(0, 0), (low, 0), (1, 1.2), (1 - wall, 1.2), (low - wall, wall), (0, wall)]
+    mesh = lathe(profile, around)
     found = sheets_of(mesh, Settings())
     outside = distance.to_triangles(found.vertices, mesh[0][mesh[1]])
     outside[reference.winding_number(found.vertices, *mesh) > 0.5] = 0.0
@@ -443,9 +474,21 @@ def test_a_sheet_without_thickness_is_none():
     assert middle._with_volume(made, np.array([0.1, 0.0, 0.1])) is made
 
 
+def test_more_volume_than_the_solid_has_is_told():
+    (said,) = middle._left_out(1.06, 0.1, 0.01)
+    assert "106 % of the volume" in said
+    assert middle._left_out(1.04, 0.1, 0.01) == ()
+
+
 def test_tips_that_are_narrower_than_samples_are_apart_are_reached():
     found = sheets_of(star(12, 0.005), Settings(samples=1000))
     assert found.share == pytest.approx(1.0) and np.median(found.thickness) == pytest.approx(0.005)
+
+
+def test_what_samples_miss_is_told():
+    """All of it is thin, so what is missing is not said to be thick."""
+    (said,) = middle._left_out(0.9, 0.005, 0.03)
+    assert "tips that are narrower than samples are apart, 0.03" in said
 
 
 def test_a_sheet_that_touches_itself_is_divided():

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -210,6 +210,49 @@ def test_flat_faces_stay_flat_beside_bevels(medial):
     assert np.abs(np.abs(samples.points[flat, 2] - 2.5) - 2.5).max() < 1e-9
 
 
+def bent_bar(segments, thickness=0.02, width=0.04, fillet=0.002):
+    """A flat bar with rounded edges, bent about an axis at a distance of 1."""
+    turn = np.linspace(0.0, np.pi / 2, 4)
+    across, up = (
+        width / 2 - fillet + fillet * np.sin(turn),
+        thickness / 2 - fillet * (1 - np.cos(turn)),
+    )
+    right = np.column_stack((across, up))
+    right = np.concatenate((right, right[::-1] * (1, -1)))
+    z, off = np.concatenate((right, -right)).T
+    rings = [
+        np.column_stack(((1 + off) * np.sin(a), (1 + off) * np.cos(a), z))
+        for a in np.linspace(-0.5, 0.5, segments + 1)
+    ]
+    a = np.arange(len(rings) * len(z)).reshape(len(rings), -1)
+    b = np.roll(a, -1, axis=1)
+    quads = np.stack((a[:-1], b[:-1], b[1:], a[1:]), axis=-1).reshape(-1, 4)
+    fan = np.column_stack((0 * z[2:], np.arange(1, len(z) - 1), np.arange(2, len(z)))).astype(int)
+    ends = np.concatenate((fan[:, ::-1], fan + a[-1, 0]))
+    return np.concatenate(rings), np.concatenate((quads[:, :3], quads[:, [0, 2, 3]], ends))
+
+
+@pytest.mark.parametrize("segments", [16, 40])
+def test_flat_faces_stay_flat_where_a_bar_with_bevels_is_bent(segments):
+    """Two large faces meet at each vertex, beside small ones."""
+    found = measure(bent_bar(segments), Settings())
+    x, y, z = found.points.T
+    middle = (np.abs(z) < 0.014) & (np.abs(np.arctan2(x, y)) < 0.4) & ~found.at_edge
+    assert middle.sum() > 5000
+    assert np.abs(found.lengths[middle] / 0.02 - 1).max() < 1e-3
+
+
+@pytest.mark.turn
+@pytest.mark.parametrize("around, across, turn", [(100, 16, 0.5), (250, 60, 0.5), (4400, 14, 0.0)])
+def test_rows_of_a_ring_are_no_walls(around, across, turn):
+    """Rows on top of it are flat, or so long that each of their triangles lies in the next one's plane."""
+    mesh = moved(meshes.torus(1.0, 0.2, around, across, turn), 1.0, 3, False)
+    mesh = mesh[0].astype(np.float32).astype(float), mesh[1]
+    found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    assert errors(found.lengths, 0.4)[0] > -0.03
+    assert np.mean(np.abs(found.lengths / 0.4 - 1)) < 0.015
+
+
 def sphere_of_rows(rows, around, axes=(1.0, 1.0, 1.0)):
     latitudes = np.concatenate(([0.0], np.cumsum(rows))) * np.pi / np.sum(rows)
     vertices, triangles = lathe([(np.sin(x), -np.cos(x)) for x in latitudes], around)
@@ -257,6 +300,22 @@ def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, bar, turned
     )
     assert not found.at_edge.any()
     np.testing.assert_allclose(found.lengths, truth, rtol=bar)
+
+
+@pytest.mark.parametrize("deep", [0.6, 0.85, 0.92])
+def test_no_small_cavity_is_overlooked_in_a_ball(deep):
+    """From the centre of the sphere all of its faces are as far away."""
+    outer, cavity = meshes.icosphere(4), meshes.icosphere(2)
+    places, radius = deep * np.array([(0.6, 0.64, 0.48), (-0.48, 0.6, -0.64)]), 0.03
+    voids = [(radius * cavity[0] + place, cavity[1][:, ::-1]) for place in places]
+    found = measure(join(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    away = outer[0][:, None] - places
+    square, height = (away**2).sum(axis=2), (away * outer[0][:, None]).sum(axis=2)
+    with np.errstate(divide="ignore"):
+        balls = np.where(height > -radius, (square - radius**2) / (height + radius), np.inf)
+    truth = np.minimum(2.0, balls.min(axis=1))
+    assert (truth < 1.5).sum() > 100
+    np.testing.assert_allclose(found.lengths[: len(truth)], truth, rtol=0.06)
 
 
 def test_ellipsoids_of_any_rows_against_shrinking_balls():
@@ -420,6 +479,14 @@ def test_grey_leaves_out_what_no_wall_faces():
     np.testing.assert_allclose(found.lengths[np.isfinite(found.lengths)], 0.4, rtol=0.01)
 
 
+def test_more_limits_need_no_other_measurement():
+    """Areas grow with the limit; what is thin at a limit is so at a larger one."""
+    found = measure(STAIRS, Settings())
+    parts = [find_thin_parts(found, limit) for limit in (0.05, 0.15, 0.25, 0.35)]
+    assert np.all(np.diff([p.area for p in parts]) > 0)
+    assert parts[-1].share == pytest.approx(1.0, abs=1e-3)
+
+
 # --- clouds, noise, open meshes
 
 
@@ -476,6 +543,12 @@ def test_in_too_much_noise_no_figure_is_called_honest(given):
     assert any("no figure is honest" in warning for warning in found.warnings)
 
 
+def test_clean_samples_have_no_noise():
+    for mesh in (BOX, shell(), CYLINDER):
+        found = measure(mesh)
+        assert found.noise < 0.02 and not any("scatter" in warning for warning in found.warnings)
+
+
 @pytest.mark.parametrize("bend", [0.0, 60.0])
 @pytest.mark.parametrize(("radius", "around"), [(5.0, 24), (3.0, 16)])
 def test_an_open_tube_is_as_thick_as_a_closed_one(radius, around, bend):
@@ -497,6 +570,15 @@ def test_an_open_tube_is_as_thick_as_a_closed_one(radius, around, bend):
     assert not find_thin_parts(found, 0.5 * radius).patches
 
 
+def test_vertices_of_a_dense_mesh_are_measured_as_they_are():
+    vertices, triangles = ellipsoid(subdivisions=5)
+    found = measure((vertices, triangles), Settings(), edges=Edges.BALL)
+    assert found.triangles is found.shape.triangles and found.normals.endswith("the faces")
+    assert len(found.of_vertices) == len(vertices)
+    thin = find_thin_parts(found, 0.9)
+    np.testing.assert_array_equal(thin.patch_of_faces, thin.patch_of_triangles)
+
+
 # --- native arguments
 
 
@@ -515,6 +597,18 @@ def test_arguments_are_checked(medial):
     progress.cancel()
     with pytest.raises(medial.Cancelled):
         analysis.thickness(vertices, progress=progress)
+
+
+def test_length_of_normals_and_threads_do_not_matter(medial):
+    vertices, triangles = ellipsoid(subdivisions=4)
+    normals = vertices / np.square((1.0, 0.7, 0.5))
+    values = [
+        medial.MedialAnalysis(vertices, triangles, threads=threads)
+        .thickness(factor * normals)
+        .values
+        for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0))
+    ]
+    assert values[0].tobytes() == values[1].tobytes() == values[2].tobytes()
 
 
 def test_nearest_and_patches(medial):
@@ -596,6 +690,12 @@ def test_ply_is_the_measured_surface(tmp_path):
     thin, none = np.isfinite(found.lengths), np.isinf(found.lengths)
     red = vertices["colour"][thin].astype(int)
     assert (red[:, 0] > 200).all() and len(np.unique(vertices["colour"][none], axis=0)) == 1
+
+
+def test_other_formats_are_refused(tmp_path):
+    found = measure(BOX)
+    with pytest.raises(ExportError, match=r"\.csv, \.html, \.json or \.ply"):
+        export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")
 
 
 def test_the_length_of_a_triangle_is_the_least_wall_at_its_corners():
