@@ -88,9 +88,8 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
     bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
-    turned = (
-        bounded or _turned(shape.points, shape.triangles) <= FEW
-    )  # else their normals mean nothing
+    # Normals mean nothing where more of the edges lie between faces of opposite orientation.
+    turned = bounded or _turned(shape.points, shape.triangles) <= FEW
     is_open = f"the mesh is open at {gaps:,} edges"
     by_winding = f"the winding number of the faces, for {is_open}"
     reasons = {

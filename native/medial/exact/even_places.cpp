@@ -167,7 +167,8 @@ void EvenPlaces::finish() {
     return e_.mesh.stratum(v) == Stratum::sheet && placing_[v] == Placing::refused;
   });
   for (const int32_t v : refused) {
-    if (keeps_sides(e_, v, mean_beside(v))) move(e_, v, mean_beside(v));
+    const Vec3 mean = mean_beside(v);
+    if (keeps_sides(e_, v, mean)) move(e_, v, mean);
   }
   place(refused);
 }

@@ -34,9 +34,9 @@ class Climb {
     const auto first = nearest(start_, HUGE_VAL);
     if (!first || !is_inside(*first) || is_curved(*first)) return {};
     const Touch stays{.position = start_, .radius = first->distance};
-    walls_.push_back(first->triangle);
+    add(first->triangle);
     for (int i = 0; i < kSteps; ++i) {
-      find_feet();
+      find_touched();
       const Vec3 way = shortest_of_hull(touched_);
       if (!(squared_length(way) > kSameFoot * kSameFoot)) return held(stays);
       if (!step(way)) break;
@@ -63,11 +63,13 @@ class Climb {
     return away - dot(away, along_) * along_;
   }
 
-  // Finds the feet on all known walls, and which of them the ball touches.
-  void find_feet() {
-    feet_.clear();
+  void add(int32_t wall) {
+    walls_.push_back(wall);
+    feet_.push_back(faces_.descend(wall, centre_));
+  }
+
+  void find_touched() {
     touched_.clear();
-    for (const int32_t wall : walls_) feet_.push_back(faces_.descend(wall, centre_));
     radius_ = least(feet_);
     for (const Foot& foot : feet_) {
       if (touches(foot)) touched_.push_back(slope(foot));
@@ -97,10 +99,11 @@ class Climb {
     const double known = least(there);
     if (const auto nearer = nearest(next, (1 - kAsNear) * known)) {
       if (std::find(walls_.begin(), walls_.end(), nearer->triangle) != walls_.end()) return false;
-      walls_.push_back(nearer->triangle);
+      add(nearer->triangle);
       return true;
     }
     centre_ = next;
+    feet_ = std::move(there);
     return known > radius_ && distance(centre_, start_) < known;
   }
 
