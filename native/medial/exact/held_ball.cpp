@@ -25,104 +25,122 @@ Vec3 shortest_of_hull(std::span<const Vec3> all) {
   return holds ? Vec3{} : best;
 }
 
+// Finds the highest place of the distance to the faces in a plane by Kelley's method of cutting
+// planes. Each foot of a place that was tried gives a plane, and the next place is the highest one
+// of the lowest planes. A flat wall is one plane, and all planes of a round bar meet in its axis.
 class Climb {
  public:
   Climb(const SamplesOnFaces& samples, const Vec3& start, const Vec3& along)
       : samples_(samples), faces_(samples.faces()), start_(start), along_(along), centre_(start) {}
 
   Touch climb() {
-    const auto first = nearest(start_, HUGE_VAL);
-    if (!first || !is_inside(*first) || is_curved(*first)) return {};
+    const auto first = nearest();
+    if (!first || !is_inside(*first)) return {};
     const Touch stays{.position = start_, .radius = first->distance};
-    add(first->triangle);
+    reach_ = first->distance;
+    add(*first);
     for (int i = 0; i < kSteps; ++i) {
-      find_touched();
-      const Vec3 way = shortest_of_hull(touched_);
-      if (!(squared_length(way) > kSameFoot * kSameFoot)) return held(stays);
-      if (!step(way)) break;
+      for (int k = 0; k < kSteps && step(); ++k) {
+      }
+      const auto foot = nearest();
+      if (!foot) return stays;
+      const double depth = foot->distance;
+      if (is_inside(*foot) && height() <= (1 + kAsNear) * depth) {
+        const Touch held{.position = centre_, .radius = depth};
+        return samples_.are_near(foot->point) && is_better(held, *foot, *first) ? held : stays;
+      }
+      add(*foot);
     }
     return stays;
   }
 
  private:
-  std::optional<Foot> nearest(const Vec3& place, double than) const {
-    return faces_.nearest_lifted({.from = place, .than = than},
-                                 [&](const Foot& foot) { return !samples_.are_near(foot.point); });
+  struct Plane {
+    Vec3 slope;
+    double at_start;
+  };
+
+  // Walls of a smooth section may be so nearly as far away along a way that its highest place tells
+  // less than the samples do. So a ball that they hold counts if they are round, that is, if the
+  // distance grows along the whole way as to flat walls with the sharp angle between them, and if a
+  // hole between the samples is as wide as the radius of the ball.
+  bool is_better(const Touch& held, const Foot& foot, const Foot& first) const {
+    const double moved = distance(held.position, start_);
+    if (!(moved < held.radius)) return false;
+    if (!(faces_.bulge(foot.triangle) > kAsNear * held.radius)) return true;
+    return held.radius - first.distance > samples_.most_alike() * moved &&
+           2 * samples_.hole_near(start_) > first.distance;
   }
 
-  bool is_curved(const Foot& foot) const {
-    return faces_.bulge(foot.triangle) > kAsNear * foot.distance;
+  std::optional<Foot> nearest() const {
+    const auto near = faces_.nearest_lifted(
+        {.from = centre_}, [&](const Foot& foot) { return !samples_.are_near(foot.point); });
+    if (!near) return {};
+    return faces_.descend_again(*near, centre_);
   }
 
   bool is_inside(const Foot& foot) const {
-    return dot(start_ - foot.point, faces_.mesh().normal[foot.triangle]) < 0;
+    return dot(centre_ - foot.point, faces_.normal(foot.triangle, foot.at)) < 0;
   }
 
-  Vec3 slope(const Foot& foot) const {
-    const Vec3 away = normalized(centre_ - foot.point);
-    return away - dot(away, along_) * along_;
+  // Returns the direction in which the signed distance grows.
+  Vec3 inwards(const Foot& foot) const {
+    if (!(foot.distance > kAsNear * reach_)) return -1 * faces_.normal(foot.triangle, foot.at);
+    return (is_inside(foot) ? 1 : -1) * normalized(centre_ - foot.point);
   }
 
-  void add(int32_t wall) {
-    walls_.push_back(wall);
-    feet_.push_back(faces_.descend(wall, centre_));
+  // The distance is negative outside.
+  void add(const Foot& foot) {
+    const Vec3 away = inwards(foot), slope = away - dot(away, along_) * along_;
+    const double depth = is_inside(foot) ? foot.distance : -foot.distance;
+    planes_.push_back({slope, depth - dot(slope, centre_ - start_)});
   }
 
-  void find_touched() {
-    touched_.clear();
-    radius_ = least(feet_);
-    for (const Foot& foot : feet_) {
-      if (touches(foot)) touched_.push_back(slope(foot));
-    }
+  double height(const Plane& plane) const {
+    return plane.at_start + dot(plane.slope, centre_ - start_);
   }
 
-  bool touches(const Foot& foot) const { return foot.distance <= (1 + kAsNear) * radius_; }
-
-  static double least(std::span<const Foot> feet) {
+  double height() const {
     double least = HUGE_VAL;
-    for (const Foot& foot : feet) least = std::min(least, foot.distance);
+    for (const Plane& plane : planes_) least = std::min(least, height(plane));
     return least;
   }
 
-  // Goes on until another known wall is as near as those that are touched. If a wall that was not
-  // known is nearer there, the centre stays. Returns false where no wall ends the way near by.
-  bool step(const Vec3& way) {
-    const double growth = squared_length(way);
-    double reach = radius_ / std::sqrt(growth);
-    for (const Foot& foot : feet_) {
-      const double falls = growth - dot(slope(foot), way);
-      if (!touches(foot) && falls > 0) reach = std::min(reach, (foot.distance - radius_) / falls);
+  std::vector<Vec3> lowest() const {
+    const double low = height();
+    std::vector<Vec3> slopes;
+    for (const Plane& plane : planes_) {
+      if (is_low(plane, low)) slopes.push_back(plane.slope);
     }
-    const Vec3 next = centre_ + reach * way;
-    std::vector<Foot> there;
-    for (const int32_t wall : walls_) there.push_back(faces_.descend(wall, next));
-    const double known = least(there);
-    if (const auto nearer = nearest(next, (1 - kAsNear) * known)) {
-      if (std::find(walls_.begin(), walls_.end(), nearer->triangle) != walls_.end()) return false;
-      add(nearer->triangle);
-      return true;
-    }
-    centre_ = next;
-    feet_ = std::move(there);
-    return known > radius_ && distance(centre_, start_) < known;
+    return slopes;
   }
 
-  Touch held(const Touch& stays) const {
-    for (const Foot& foot : feet_) {
-      if (!touches(foot)) continue;
-      if (is_curved(foot)) return {};
-      if (!samples_.are_near(foot.point)) return stays;
+  // Goes up along the lowest planes until another one is as low. Returns false at the top; where no
+  // plane ends the way, it is one first radius on.
+  bool step() {
+    const double low = height();
+    const Vec3 way = shortest_of_hull(lowest());
+    const double growth = squared_length(way);
+    if (!(growth > kSameFoot * kSameFoot)) return false;
+    double share = HUGE_VAL;
+    for (const Plane& plane : planes_) {
+      const double falls = growth - dot(plane.slope, way);
+      if (!is_low(plane, low) && falls > 0) share = std::min(share, (height(plane) - low) / falls);
     }
-    return {.position = centre_, .radius = radius_};
+    const bool ends = share < HUGE_VAL;
+    centre_ = centre_ + (ends ? share : reach_ / std::sqrt(growth)) * way;
+    return ends;
+  }
+
+  bool is_low(const Plane& plane, double low) const {
+    return height(plane) <= low + kAsNear * reach_;
   }
 
   const SamplesOnFaces& samples_;
   const Faces& faces_;
   Vec3 start_, along_, centre_;
-  double radius_ = 0;
-  std::vector<int32_t> walls_;  // triangles
-  std::vector<Foot> feet_;      // on them
-  std::vector<Vec3> touched_;   // the slopes of the distances to walls that the ball touches
+  double reach_ = 0;
+  std::vector<Plane> planes_;
 };
 
 }  // namespace

@@ -91,7 +91,7 @@ std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
       const auto meeting = meeting_of_planes(samples, n, m, at);
       if (!meeting) continue;
       const auto found = creases_.nearer(*meeting, reach);
-      if (found) return found;
+      if (found && lies_between(found->edge, n, m)) return found;
     }
   }
   return {};
@@ -104,6 +104,14 @@ std::optional<Vec3> SamplesOnFaces::meeting_of_planes(const Edge& samples, const
   const bool convex = dot(across, n) < 0 && dot(across, m) > 0;
   if (!convex || !(dot(n, m) < most_alike_) || !(dot(n, m) > -1)) return {};
   return apex(point(p), n, point(q), m, at);
+}
+
+bool SamplesOnFaces::lies_between(int32_t crease, const Vec3& n, const Vec3& m) const {
+  const auto& [a, b] = faces_.creases().edges[crease].triangles;
+  const auto are_alike = [&](int32_t triangle, const Vec3& normal) {
+    return dot(faces_.mesh().normal[triangle], normal) > most_alike_;
+  };
+  return (are_alike(a, n) && are_alike(b, m)) || (are_alike(a, m) && are_alike(b, n));
 }
 
 bool SamplesOnFaces::are_opposite_reflex_edges(const Edge& samples) const {

@@ -41,12 +41,19 @@ class SamplesOnFaces {
   // surface bulges over a flat triangle. Balls between samples leave faces that are closer to each
   // other than the samples are, and would be two times too large.
   double within_faces(const Vec3& centre, double radius) const;
+  // Returns the hole at the sample nearest to a place.
+  double hole_near(const Vec3& place) const { return spacing_[tree_.nearest(place).id]; }
+  // Returns the cosine of the sharp angle.
+  double most_alike() const { return most_alike_; }
   // Returns the triangle on which the sample nearest to a place lies, or -1.
   int32_t triangle_near(const Vec3& place) const { return triangle(tree_.nearest(place).id); }
   size_t bytes() const;
 
  private:
   void place(int32_t sample, int32_t triangle);
+  // Returns whether the sides of a crease are walls with these normals. Tangent planes of round
+  // walls also meet far from where the walls themselves do.
+  bool lies_between(int32_t crease, const Vec3& n, const Vec3& m) const;
   // Returns whether two samples lie on reflex edges with walls that face each other, as those round
   // the line in which two walls cross. Neither sample satisfies the Angle condition, since its
   // umbrella has triangles of the other wall, too.
