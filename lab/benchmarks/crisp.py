@@ -190,7 +190,7 @@ def main() -> None:
         ]
         _module.publish(_module.markdown(MESH_HEADER, table), options.output)
         return
-    wanted = [False, True] if crisp_runs.knows_crisp() and not options.no_crisp else [False]
+    wanted = [False] if options.no_crisp else [False, True]
     wanted = wanted[-1:] if options.shown else wanted
     table = [
         row

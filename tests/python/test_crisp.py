@@ -12,7 +12,6 @@ import pytest
 from scipy.spatial import cKDTree
 from support import (
     crisp_measures,
-    crisp_runs,
     crisp_solids,
     crossing_triangles,
     crossings,
@@ -336,15 +335,9 @@ CASES = [
 ]
 
 
-@pytest.fixture
-def crisp():
-    if not crisp_runs.knows_crisp():
-        pytest.skip("the product has no setting 'crisp'")
-
-
 @pytest.mark.oracle
 @pytest.mark.parametrize("case", CASES)
-def test_bars(crisp, case):
+def test_bars(case):
     made = case.made(crisp=True)
     found = made.measured()
     assert not broken(case, found), found
@@ -365,7 +358,7 @@ def test_the_bars_can_fail():
 
 
 @pytest.mark.turn
-def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(crisp, medial, data_file):
+def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(medial, data_file):
     import medial_axis
 
     mesh = meshes.read(data_file("fandisk_large.off"))
@@ -380,7 +373,7 @@ def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(crisp, media
     assert off[touching].mean() < 3e-5 * np.linalg.norm(np.ptp(mesh[0], axis=0))
 
 
-def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
+def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(medial):
     """The upright sheet of a prism over an ellipse ends at the curvature of the ellipse, and at the sheets that lead
     into the edges of the two flat faces. Its rims must not be drawn on to these edges."""
     import medial_axis
@@ -399,7 +392,7 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
 
 
 @pytest.mark.parametrize("sides, t", ((12, 0.005), (6, 0.002)))
-def test_the_rim_round_a_thin_plate_stays_where_it_is(crisp, medial, sides, t):
+def test_the_rim_round_a_thin_plate_stays_where_it_is(medial, sides, t):
     """One closed line ends the sheet, and its vertices were drawn together in one place: facets were 0.9 wide."""
     import medial_axis
 

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.levels import hierarchy_of
 from support import measure
-from support.levels import betti_of_mesh
 from support.plates import prism
-from support.thick_meshes import block
 
 TAB = 0.15  # half of its width
 
@@ -63,16 +61,3 @@ def test_levels_are_nested_and_zero_changes_nothing(tabbed):
         assert (hierarchy.facet_spike[level.facet_of] > spike).all()
         before = level
     assert len(before.facet_of) < len(same.facet_of)
-
-
-@pytest.mark.parametrize("spike", [0.005, 0.02, 0.1])
-def test_levels_without_teeth_have_the_topology_of_the_solid(spike):
-    """Levels for the eye lose facets that stick out of their rims."""
-    found, _ = shown(block(2.0, 1.5, 1.0))
-    hierarchy = hierarchy_of(found.chosen.samples, found.settings, None)
-    bare = hierarchy.extract(spacings=1.0, spike=spike)
-    level = hierarchy.extract(spacings=1.0, spike=spike, relaxed=True)
-    assert np.isin(level.facet_of, bare.facet_of).all()
-    assert 0 < len(level.facet_of) < len(bare.facet_of) or len(bare.facet_of) == 0
-    assert level.betti == bare.betti == (1, 0, 0)
-    assert betti_of_mesh(level) == (1, 1)

@@ -7,13 +7,6 @@ from typing import Any
 from . import crisp_measures, crisp_solids
 
 
-def knows_crisp() -> bool:
-    """Whether the installed package has the setting."""
-    from medial_axis.core.settings import OPTIONS
-
-    return "crisp" in OPTIONS
-
-
 @dataclass(frozen=True)
 class Case:
     """`seed` turns the mesh and chooses the samples; `single` rounds the mesh to float32."""
@@ -36,9 +29,9 @@ class Case:
         turn = None if self.as_is else self.seed
         mesh, frame = crisp_solids.turned(solid.mesh, turn, self.single)
         chosen = {"samples": self.count, "seed": self.seed, "form": self.form, "mesh": self.mesh}
-        if knows_crisp():
-            chosen["crisp"] = crisp
-        return Made(self, medial_axis.compute(*mesh, sampling="surface", **chosen), frame)
+        return Made(
+            self, medial_axis.compute(*mesh, sampling="surface", crisp=crisp, **chosen), frame
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,16 @@ constexpr double kFarthestMove = 2;    // that a vertex moves to touch walls; ch
 constexpr int kMoreWalls = 8;          // attempts to mend walls that the ball sticks out of
 constexpr double kNearlyEqual = 1e-3;  // distances to walls of one rough ball; chosen: unseen
 
+// Returns whether a wall is seen from its inner side. All of them are, except the walls of a sharp
+// reflex edge, which a ball rolls round.
+bool is_inside(const Faces& faces, const Walls& walls,
+               const std::array<Vec3, kMostContacts>& away) {
+  for (size_t i = 0; i < walls.count; ++i) {
+    if (dot(away[i], faces.mesh().normal[walls.triangle[i]]) < 0) return true;
+  }
+  return false;
+}
+
 class BallFinder {
  public:
   BallFinder(const SamplesOnFaces& samples, const NearPlace& near)
@@ -74,21 +84,11 @@ class BallFinder {
   // bounds nothing. And it is inside: where samples are far apart, it may have gone past an edge.
   Touch found(const Trial& trial) const {
     const TouchingBall& ball = trial.ball;
-    if (!is_inside(trial)) return {};
+    if (!is_inside(samples_.faces(), trial.walls, ball.away)) return {};
     for (size_t i = 0; i < trial.walls.count; ++i) {
       if (!samples_.are_near(ball.centre - ball.radius * ball.away[i])) return {};
     }
     return {ball.centre, ball.radius, trial.walls, ball.away};
-  }
-
-  // Returns whether a wall is seen from its inner side. All of them are, except the walls of a
-  // sharp reflex edge, which a ball rolls round.
-  bool is_inside(const Trial& trial) const {
-    for (size_t i = 0; i < trial.walls.count; ++i) {
-      const Vec3& outward = samples_.faces().mesh().normal[trial.walls.triangle[i]];
-      if (dot(trial.ball.away[i], outward) < 0) return true;
-    }
-    return false;
   }
 
   // Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.
@@ -115,6 +115,7 @@ Touch smooth_ball(const SamplesOnFaces& samples, const NearPlace& near, Walls wa
   const auto ball = followed_ball(samples.faces(), walls.all(), near.place);
   if (!ball || !(ball->unequal <= kExact * near.hole)) return {};
   if (!(distance(ball->centre, near.place) <= kFarthestMove * near.hole)) return {};
+  if (!is_inside(samples.faces(), walls, ball->away)) return {};
   return {ball->centre, ball->radius, walls, ball->away};
 }
 

@@ -284,7 +284,17 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
   if (inner < 0) return {};
   const Vec3 last = last_place(inner, e_.position[v]);
   if (last == e_.position[inner]) return {};
-  return {distance(last, e_.position[v]), has_parallel_walls(inner)};
+  return {distance(last, e_.position[v]),
+          has_parallel_walls(inner) || is_beyond_walls(inner, e_.position[v])};
+}
+
+// Returns whether a place is on the outer side of a wall of a vertex.
+bool EvenPlaces::is_beyond_walls(int32_t v, const Vec3& place) const {
+  Walls walls = found_[v].walls;
+  return std::ranges::any_of(walls.all(), [&](int32_t triangle) {
+    const Foot foot = samples_.faces().descend(triangle, place);
+    return dot(place - foot.point, samples_.faces().normal(foot.triangle, foot.at)) > 0;
+  });
 }
 
 // The squared sine of half the angle between the feet falls nearly linearly towards the end, where

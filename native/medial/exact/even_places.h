@@ -57,6 +57,7 @@ class EvenPlaces {
   std::optional<Touch> smooth_ball_at(int32_t v, const Vec3& start, const Walls& walls) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
+  bool is_beyond_walls(int32_t v, const Vec3& place) const;
   SmoothRim before_third_wall(int32_t v) const;
   bool has_parallel_walls(int32_t v) const;
   Touch ball_between(int32_t v, const Vec3& start) const;

@@ -8,7 +8,6 @@
 #include "levels/even_rims.h"
 #include "levels/relax.h"
 #include "levels/round_limbs.h"
-#include "levels/teeth.h"
 
 namespace medial {
 namespace {
@@ -328,7 +327,6 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
   Alive alive = alive_at(h, options, quiet);
-  if (options.relaxed && options.spike > 0 && !h.even) trim_teeth(h.complex, alive, quiet);
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
