@@ -53,6 +53,15 @@ def test_a_curve_stands_in_the_middle_of_a_round_bar(medial, sides, wide, form):
     assert off.max() < 1e-3
 
 
+def test_balls_at_the_ends_of_a_curve_leave_the_faces_no_farther_than_round_walls_do(medial):
+    """They left them twice as far: by what walls bulge, beyond a wall that bulges."""
+    profile = [(0, 0), (0.62, 0), (0.62, 0.3), (0.94, 0.6), (0.82, 1.4), (0.82, 2.3), (0, 2.3)]
+    points, triangles = thick_meshes.lathe(profile, 32)
+    axis = medial_axis.compute(points, triangles, form="CURVE").axis
+    depth = medial.surface_distances(axis.vertices, points, triangles)
+    assert (axis.radius - depth).max() < 0.94 * (1 - np.cos(np.pi / 32))
+
+
 @pytest.mark.parametrize("around, tube, across", [(48, 0.2, 20), (96, 0.02, 16)])
 def test_a_curve_in_a_torus_has_the_radius_of_its_tube(around, tube, across):
     axis = medial_axis.compute(*meshes.torus(1.0, tube, around, across), form="CURVE").axis

@@ -73,7 +73,7 @@ bool SamplesOnFaces::are_near(const Vec3& place) const { return tree_.has_within
 double SamplesOnFaces::within_faces(const Vec3& centre, double radius) const {
   const auto foot = faces_.nearer(centre, radius);
   if (!foot || !are_near(foot->point)) return radius;
-  return std::min(radius, foot->distance + faces_.bulge(foot->triangle));
+  return foot->distance;
 }
 
 std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,

@@ -37,9 +37,9 @@ class SamplesOnFaces {
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
   bool are_near(const Vec3& place) const;
-  // Returns the radius of a ball, or as much of it as leaves the faces by no more than their
-  // surface bulges over a flat triangle. Balls between samples leave faces that are closer to each
-  // other than the samples are, and would be two times too large.
+  // Returns the radius of a ball, or the distance to the faces if that is less. Balls between
+  // samples leave faces that are closer to each other than the samples are, and would be two times
+  // too large.
   double within_faces(const Vec3& centre, double radius) const;
   // Returns the hole at the sample nearest to a place.
   double hole_near(const Vec3& place) const { return spacing_[tree_.nearest(place).id]; }
