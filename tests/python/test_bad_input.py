@@ -45,19 +45,6 @@ def with_value(row, value):
         CLOUD.astype(object),
         np.float64(1.0),
     ],
-    ids=[
-        "two columns",
-        "flat",
-        "three axes",
-        "four columns",
-        "no columns",
-        "int",
-        "bool",
-        "complex",
-        "str",
-        "object",
-        "scalar",
-    ],
 )
 def test_points_of_a_wrong_shape_or_type(study, stage, points):
     with pytest.raises(study.InvalidInputError) as error:
@@ -99,22 +86,6 @@ def test_the_first_row_that_is_not_finite_is_named(medial):
         np.column_stack((np.round(CLOUD[:, :2] * 64) / 64, np.round(CLOUD[:, 0] * 64) / 64)),
         inputs.grid((5, 5, 1)),
         inputs.grid((9, 1, 1)),
-    ],
-    ids=[
-        "none",
-        "one",
-        "two",
-        "three",
-        "identical",
-        "three distinct",
-        "line",
-        "plane z = 0",
-        "plane z = 7.25",
-        "flattened",
-        "origin",
-        "slanted plane",
-        "flat grid",
-        "grid line",
     ],
 )
 def test_points_without_volume(study, stage, points):

@@ -6,7 +6,10 @@ import math
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.settings import Settings
+from medial_axis.core.errors import DegenerateInputError
+from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
+from medial_axis.core.shape.shape import Shape
+from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
 from support.shapes import SHAPES, Cyclide, RoundCone, frustum
@@ -355,3 +358,14 @@ def test_wires_far_from_samples_that_nearly_coincide_are_not_divided_without_end
     settings = Settings(samples=253, budget=1394, keep_vertices=True)
     axis = compute(vertices, triangles, settings).axis
     assert np.isfinite(axis.vertices).all() and len(axis.vertices) < 100_000
+
+
+def test_a_solid_without_a_ball_has_an_empty_curve():
+    """The only ball through the corners of a flat tetrahedron has its centre outside: there is no wire to cut."""
+    points = np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0.3, 0.3, 0.05)])
+    triangles = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    wanted = Settings(form=Form.CURVE, sampling=SamplingMode.VERTICES)
+    found = compute(points, triangles, wanted)
+    assert len(found.axis.vertices) == 0 and "no facet passes" in found.warnings[-1]
+    with pytest.raises(DegenerateInputError, match="found none"):
+        compute_skeleton(Shape(points, triangles), wanted, SkeletonSettings())

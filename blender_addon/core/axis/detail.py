@@ -42,6 +42,8 @@ def with_detail(
         From 0, what a skeleton has, to 1, everything.
     """
     assert axis.level is not None
+    if not len(level.wires):
+        return axis
     removals = _removals(level, hierarchy, samples)
     axis = replace(axis, level=replace(axis.level, removals=removals.count))
     done = _done(removals, detail)

@@ -77,15 +77,12 @@ def largest_balls(hierarchy: Any, count: int) -> Longs:
     radius = hierarchy.radius[corners]
     largest = np.maximum.reduceat(radius, offsets[:-1])
     facet = np.repeat(np.arange(len(largest)), np.diff(offsets))
-    best = np.flatnonzero(radius == largest[facet])[
-        ::-1
-    ]  # reversed, the first of several is written last and stays
+    # What is written last stays: the first one of equals, and the largest of all.
+    best = np.flatnonzero(radius == largest[facet])[::-1]
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
     order = np.argsort(largest, kind="stable")
-    ball[hierarchy.generators[order].ravel()] = np.repeat(
-        of_facet[order], 2
-    )  # the last of several is written last and stays
+    ball[hierarchy.generators[order].ravel()] = np.repeat(of_facet[order], 2)
     return ball
 
 

@@ -231,6 +231,8 @@ def _curve(
         level = hierarchy.extract(
             sheet=math.inf, limb=limb, crisp=settings.crisp, relaxed=True, progress=progress.part()
         )
+    if not len(level.vertices):
+        raise DegenerateInputError("Expected a ball between samples, found none; use more samples")
     if not len(level.wires) and not len(level.points):
         raise DegenerateInputError(
             f"Expected a solid with a curve skeleton, found {len(level.generators):,} facets of closed "

@@ -75,8 +75,7 @@ class Climb {
   std::optional<Foot> nearest() const {
     const auto near = faces_.nearest_lifted(
         {.from = centre_}, [&](const Foot& foot) { return !samples_.are_near(foot.point); });
-    if (!near) return {};
-    return faces_.descend_again(*near, centre_);
+    return near ? std::optional(faces_.descend_again(*near, centre_)) : std::nullopt;
   }
 
   bool is_inside(const Foot& foot) const {
