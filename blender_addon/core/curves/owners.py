@@ -77,7 +77,7 @@ def largest_balls(hierarchy: Any, count: int) -> Longs:
     radius = hierarchy.radius[corners]
     largest = np.maximum.reduceat(radius, offsets[:-1])
     facet = np.repeat(np.arange(len(largest)), np.diff(offsets))
-    # What is written last stays: the first one of equals, and the largest of all.
+    # The last one that is written stays: the first of equals, and the largest of all.
     best = np.flatnonzero(radius == largest[facet])[::-1]
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
