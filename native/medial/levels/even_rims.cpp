@@ -10,8 +10,8 @@
 namespace medial {
 namespace {
 
-constexpr int kRings = 2;      // of triangles beside new rims, which change
-constexpr int kRimRounds = 4;  // as many as take the zigzag of the samples off the rims of all
+constexpr int kRings = 4;       // of triangles beside new rims, which change
+constexpr int kRimRounds = 12;  // teeth of left out spikes are several triangles wide
 
 // Returns for each vertex of a complex whether some, but not all facets of an edge there are left.
 std::vector<uint8_t> beside_gaps(const InnerComplex& complex, const Alive& alive) {
