@@ -2,7 +2,7 @@
 """The picture of solid sheets: a folded and rolled ribbon, by a Solidify modifier and by Solidify.
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/solidify_picture.py -- \\
-        dist/medial_axis-0.2.0.zip docs/pictures/solidify.png
+        dist/medial_axis-VERSION.zip docs/pictures/solidify.png
 """
 
 import sys
