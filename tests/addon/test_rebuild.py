@@ -132,9 +132,8 @@ def test_solids_of_any_size_are_rebuilt(size):
     solid, expected = (np.ptp(positions(mesh), axis=0) for mesh in (evaluated(made), source.data))
     assert solid == pytest.approx(size * expected, rel=0.03)
     found = volume(evaluated(made)) / size**3
-    assert found == pytest.approx(
-        volume(source.data), rel=0.025
-    )  # versions of OpenVDB differ by 1.4 %
+    # Chords of the axis cut off a hundredth, and versions of OpenVDB differ by 1.4 %.
+    assert 0.99 < found / volume(source.data) < 1.024
 
 
 @pytest.mark.parametrize("size", [1e-9])

@@ -42,7 +42,7 @@ def with_detail(
         From 0, what a skeleton has, to 1, everything.
     """
     assert axis.level is not None
-    if not len(level.wires):
+    if not len(level.vertices):
         return axis
     removals = _removals(level, hierarchy, samples)
     axis = replace(axis, level=replace(axis.level, removals=removals.count))

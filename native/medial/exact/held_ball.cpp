@@ -105,8 +105,7 @@ class Climb {
     return least;
   }
 
-  std::vector<Vec3> lowest() const {
-    const double low = height();
+  std::vector<Vec3> lowest(double low) const {
     std::vector<Vec3> slopes;
     for (const Plane& plane : planes_) {
       if (is_low(plane, low)) slopes.push_back(plane.slope);
@@ -118,7 +117,7 @@ class Climb {
   // plane ends the way, it is one first radius on.
   bool step() {
     const double low = height();
-    const Vec3 way = shortest_of_hull(lowest());
+    const Vec3 way = shortest_of_hull(lowest(low));
     const double growth = squared_length(way);
     if (!(growth > kSameFoot * kSameFoot)) return false;
     double share = HUGE_VAL;
