@@ -546,6 +546,12 @@ MUTATIONS = (
         "times on wires are summed over zigzags",
     ),
     Mutation(
+        "collapse/sheets.cpp",
+        "return left.size() > 2 && std::all_of",
+        "return left.size() > 9 && std::all_of",
+        "chains of fins become parts of the sheet that they branch from",
+    ),
+    Mutation(
         "exact/held_ball.cpp",
         "2 * samples_.hole_near(start_) > first.distance;",
         "2 * samples_.hole_near(start_) < first.distance;",

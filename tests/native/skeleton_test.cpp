@@ -13,6 +13,7 @@
 #include "collapse/bubbles.h"
 #include "collapse/bucket_queue.h"
 #include "collapse/fringe.h"
+#include "collapse/sheets.h"
 #include "collapse/wires.h"
 #include "levels/curves.h"
 #include "levels/level.h"
@@ -193,6 +194,32 @@ TEST(Wires, ElongationInACapsuleIsTheWayFromTheEndOfItsAxisOnEachEdge) {
   }
   EXPECT_GT(count, 1000);
   EXPECT_NEAR((count * xy - x * y) / (count * xx - x * x), 1, 1e-3);
+}
+
+// Returns the values of facets that are a sheet each.
+Array<float> values_of_sheets(std::vector<AtJunction> junctions, std::vector<float> thickness) {
+  Sheets sheets;
+  for (size_t f = 0; f < thickness.size(); ++f) sheets.of_facet.push_back(static_cast<int32_t>(f));
+  sheets.junctions.assign(junctions.begin(), junctions.end());
+  InnerComplex complex;
+  complex.generators.resize(thickness.size());
+  complex.offsets.assign(thickness.size() + 1, 0);
+  Collapse collapse;
+  collapse.partner.assign(2, kAlone);
+  return drop_values(complex, collapse, sheets, thickness, {1, nullptr, nullptr});
+}
+
+// A fork of a sheet, 0, has two prongs, of which the thicker one, 2, goes on in it.
+TEST(Sheets, GoOnInTheThickerProngOfAFork) {
+  const auto values = values_of_sheets({{0, 0}, {0, 1}, {0, 2}}, {10, 0.1F, 0.2F});
+  EXPECT_EQ(std::vector<float>(values.begin(), values.end()), (std::vector<float>{10, 0.1F, 10}));
+}
+
+// The same, but the thicker prong ends on the sheet at another junction.
+TEST(Sheets, DoNotGoOnInWhatBranchesFromThemElsewhere) {
+  const auto values =
+      values_of_sheets({{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 0}, {1, 2}}, {10, 0.1F, 0.2F});
+  EXPECT_EQ(std::vector<float>(values.begin(), values.end()), (std::vector<float>{10, 0.1F, 0.2F}));
 }
 
 TEST(BucketQueue, GivesIdsInOrderOfTheirKeysHoweverTheyCome) {

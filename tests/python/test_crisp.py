@@ -260,11 +260,10 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("cylinder", 4_000): {"err": 1.5e-2, "cov": 1.2e-2, "cov_99": 2e-3, "gap": 0.06},
     ("cylinder", 20_000): {"err": 4e-3, "cov": 6e-3, "cov_99": 1.5e-3, "gap": 0.03},
     ("stadium", 4_000): {
-        **{"err": 1.5e-2, "err_99": 3e-4, "cov": 1.5e-2, "cov_99": 6e-3, "gap": 0.06, "rim": 0.01}
+        **{"err": 6e-3, "err_99": 3e-4, "cov": 7e-3, "cov_99": 3e-3, "gap": 0.06, "rim": 0.01}
     },
-    ("stadium", 20_000): {  # facets round the line of centres are crumpled
-        **{"err": 8e-3, "err_99": 1.2e-3, "cov": 3e-2, "cov_99": 1.6e-2, "gap": 0.055, "rim": 0.18},
-        **{"folds": 15, "crossings": 70},
+    ("stadium", 20_000): {  # float32 leaves a crossing at a corner
+        **{"err": 3e-3, "cov": 8e-3, "cov_99": 4e-3, "gap": 0.055, "crossings": 1},
     },
     ("oblate", 4_000): {
         "err": 5e-3,

@@ -366,16 +366,43 @@ class Collapse:
         )
 
     def drops(self, thickness):
-        """Per facet of K1: the thickness at which its sheet goes."""
-        left, values = set(self.k1), {}
-        while left:
-            sheets = self.sheets_of(left)
-            peak, sheet = min((max(thickness[f] for f in sheet), sorted(sheet)) for sheet in sheets)
+        """Per facet of K1: the thickness at which its sheet goes.
+
+        The thinnest sheet goes. Where that leaves two facets at a junction, the sheets there unite, unless both are
+        all that is left at another junction.
+        """
+        sheets, values = self.sheets_of(self.k1), {}
+        sheet_of = {f: i for i, sheet in enumerate(sheets) for f in sheet}
+        meetings = {
+            tuple(sorted(sheet_of[f] for f in self.k1 & set(own))) for own in self.c.facets_of_edge
+        }
+        meetings = sorted(m for m in meetings if len(m) > 2)
+        into = list(range(len(sheets)))
+
+        def left_at(meeting):
+            return [into[s] for s in meeting if into[s] >= 0]
+
+        def branch(two):
+            return any(len(left_at(m)) > 2 and set(left_at(m)) <= set(two) for m in meetings)
+
+        while any(i >= 0 for i in into):
+            peak, gone = min(
+                (
+                    max(thickness[f] for s, i in enumerate(into) if i == group for f in sheets[s]),
+                    group,
+                )
+                for group in set(into) - {-1}
+            )
             if peak == math.inf:
-                return values | dict.fromkeys(left, math.inf)
-            values |= dict.fromkeys(sheet, peak)
-            left -= set(sheet)
-        return values
+                break
+            dropped = {s for s, i in enumerate(into) if i == gone}
+            values |= {f: peak for s in dropped for f in sheets[s]}
+            into = [-1 if i == gone else i for i in into]
+            for meeting in meetings:
+                two = left_at(meeting)
+                if dropped & set(meeting) and len(two) == len(set(two)) == 2 and not branch(two):
+                    into = [min(two) if i == max(two) else i for i in into]
+        return {f: values.get(f, math.inf) for f in self.k1}
 
     def sheets_of(self, facets):
         """Sets of facets that hang together over edges with exactly two of them."""
@@ -394,7 +421,7 @@ class Collapse:
         groups: dict[int, list[int]] = {}
         for f in facets:
             groups.setdefault(find(f), []).append(f)
-        return list(groups.values())
+        return sorted(groups.values(), key=min)
 
     def limb(self):
         """Per operation on a wire of stage 3, in order, the rest 0."""

@@ -32,8 +32,8 @@ Array<float> peaks(const Sheets& sheets, std::span<const float> thickness, const
   return peak;
 }
 
-// Drops sheets, the thinnest first. A sheet is identified by its lowest facet; a group of united
-// sheets is identified by any of its sheets.
+// Drops sheets, the thinnest first. A sheet is identified by its lowest facet, and a group of
+// united sheets by the lowest one of them.
 class Dropper {
  public:
   Dropper(const Sheets& sheets, std::span<const float> peak) {
@@ -65,7 +65,8 @@ class Dropper {
       if (group.dropped || group.into >= 0 || group.peak != peak) continue;
       group.dropped = true;
       for (const int32_t member : group.members) values_[member].second = peak;
-      for (const size_t m : std::vector<size_t>(group.meetings)) join_at(meetings_[m]);
+      std::sort(group.meetings.begin(), group.meetings.end());
+      for (const size_t m : group.meetings) join_at(m);
     }
     return values_;
   }
@@ -97,23 +98,48 @@ class Dropper {
     if (groups_[sheet].peak < HUGE_VALF) queue_.emplace(groups_[sheet].peak, sheet);
   }
 
-  // Unites the groups at a junction if exactly two of its facets are left.
-  void join_at(std::span<const int32_t> meeting) {
+  // Returns the group of each facet that is left at a junction.
+  std::vector<int32_t> left_at(size_t meeting) {
     std::vector<int32_t> left;
-    for (const int32_t sheet : meeting) {
+    for (const int32_t sheet : meetings_[meeting]) {
       const int32_t group = group_of(sheet);
       if (!groups_[group].dropped) left.push_back(group);
     }
-    if (left.size() == 2 && left[0] != left[1]) unite(left[0], left[1]);
+    return left;
   }
+
+  // Unites the groups at a junction if exactly two of its facets are left, and each goes on in the
+  // other.
+  void join_at(size_t meeting) {
+    const auto left = left_at(meeting);
+    if (left.size() == 2 && left[0] != left[1] && !branches(left[0], left[1])) {
+      unite(left[0], left[1]);
+    }
+  }
+
+  // Returns whether nothing but two groups is left at a junction of three facets or more. There one
+  // branches from the other, so it does not go on in it elsewhere: chains of fins round a line of
+  // centres would all become one sheet, and none of them would go.
+  bool branches(int32_t a, int32_t b) {
+    if (groups_[a].meetings.size() > groups_[b].meetings.size()) std::swap(a, b);
+    return std::any_of(groups_[a].meetings.begin(), groups_[a].meetings.end(), [&](size_t meeting) {
+      const auto left = left_at(meeting);
+      const auto one_of_both = [&](int32_t group) { return group == a || group == b; };
+      return left.size() > 2 && std::all_of(left.begin(), left.end(), one_of_both);
+    });
+  }
+
   void unite(int32_t a, int32_t b) {
-    if (groups_[a].meetings.size() < groups_[b].meetings.size()) std::swap(a, b);
-    Group &large = groups_[a], &small = groups_[b];
-    small.into = a;
-    large.peak = std::max(large.peak, small.peak);
-    large.members.insert(large.members.end(), small.members.begin(), small.members.end());
-    large.meetings.insert(large.meetings.end(), small.meetings.begin(), small.meetings.end());
-    push(a);
+    const auto add = [](auto& list, auto& other) {
+      if (list.size() < other.size()) std::swap(list, other);
+      list.insert(list.end(), other.begin(), other.end());
+    };
+    Group &first = groups_[std::min(a, b)], &second = groups_[std::max(a, b)];
+    second.into = std::min(a, b);
+    first.peak = std::max(first.peak, second.peak);
+    add(first.members, second.members);
+    add(first.meetings, second.meetings);
+    push(second.into);
   }
 
   std::vector<Group> groups_;
