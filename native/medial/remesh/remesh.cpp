@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -21,11 +22,16 @@ using Ranked = std::tuple<double, int32_t, int32_t>;  // an edge, by what comes 
 template <typename RankOf>
 std::vector<Ranked> ranked_edges(const SheetComplex& mesh, const RankOf& rank_of) {
   std::vector<Ranked> ranked;
-  for (const auto& [a, b] : mesh.edges()) {
-    const double rank = rank_of(a, b);
-    if (rank < HUGE_VAL) ranked.emplace_back(rank, a, b);
+  for (int32_t t = 0; t < mesh.triangles(); ++t) {
+    if (mesh.is_gone(t)) continue;
+    const Triangle& corners = mesh.triangle(t);
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(corners[i], corners[(i + 1) % 3]);
+      const double rank = rank_of(a, b);
+      if (rank < HUGE_VAL) ranked.emplace_back(rank, a, b);
+    }
   }
-  std::sort(ranked.begin(), ranked.end());
+  sort_unique(ranked);
   return ranked;
 }
 
