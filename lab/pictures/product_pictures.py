@@ -57,7 +57,8 @@ class Panes:
 
     def join(self):
         subprocess.run(
-            ["montage", *self.files, "-geometry", "+0+0", "-tile", "x1", self.picture], check=True
+            ["montage", *self.files, "-geometry", "+0+0", "-tile", "x1", self.picture],
+            check=True,
         )
         for file in self.files:
             file.unlink()
