@@ -99,6 +99,25 @@ def test_pipes_are_as_thick_as_their_walls(seed, away):
 
 # --- solids that once were wrong
 
+# A cube and a box at a slant that sticks out of its top, as one solid: at corners convex edges end where reflex ones
+# begin, and faces 15 degrees apart are smooth.
+SLANTED_BOXES = (
+    [(-0.5, -0.5, -0.5), (-0.5, -0.5, 0.5), (-0.5, 0.5, -0.5), (-0.5, 0.5, 0.5)]
+    + [(-0.191832, 0.043307, 0.5), (-0.16403, 0.014524, 0.603759), (-0.191832, 0.35389, 0.5)]
+    + [(-0.143933, 0.304302, 0.678759), (0.5, -0.5, -0.5), (0.5, -0.5, 0.5), (0.5, 0.5, -0.5)]
+    + [(0.223205, 0.014524, 0.5), (0.325806, 0.11363, 0.5), (0.325806, 0.317992, 0.5)]
+    + [(0.33903, 0.304302, 0.54935), (0.5, 0.5, 0.5)],
+    [(0, 8, 1), (0, 2, 8), (0, 1, 3), (1, 4, 6), (1, 9, 4), (0, 3, 2), (1, 6, 3), (2, 3, 15)]
+    + [(3, 6, 15), (8, 10, 9), (1, 8, 9), (9, 11, 4), (9, 12, 11), (9, 13, 12), (2, 10, 8)]
+    + [(2, 15, 10), (15, 6, 13), (9, 10, 15), (9, 15, 13), (5, 6, 4), (5, 7, 6), (5, 4, 11)]
+    + [(5, 11, 7), (7, 13, 6), (7, 11, 14), (7, 14, 13), (14, 11, 12), (14, 12, 13)],
+)
+
+
+def test_the_corner_of_a_reflex_edge_is_no_wall_to_what_it_reaches_through():
+    """The flat one has walls of 0.659, between a side of the cube and a reflex edge."""
+    assert measure(SLANTED_BOXES, Settings()).minimum > 0.65
+
 
 def frustum(around):
     return lathe([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0), (0.0, 1.0)], around)

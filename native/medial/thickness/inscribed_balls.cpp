@@ -278,13 +278,15 @@ class Shrinking {
   }
 
   // Returns the normal where a ball touches a foot. On a reflex edge, where faces have many
-  // normals, it is that of the ball.
+  // normals, it is that of the ball, but of the side through which a ball reaches to it.
   Vec3 normal_at(const Foot& q, const Vec3& centre) const {
     const std::array<double, 3> opposite{q.at.c, q.at.a, q.at.b};  // of the corner, for each edge
     for (int i = 0; i < 3; ++i) {
-      if (opposite[i] == 0 && faces_.is_reflex_crease(faces_.edge_of(q.triangle, i))) {
-        return normalized(q.point - centre);
-      }
+      if (opposite[i] != 0 || !faces_.is_reflex_crease(faces_.edge_of(q.triangle, i))) continue;
+      const Foot here{q.triangle, q.at, q.point, distance(q.point, centre)};
+      const Foot side = faces_.lifted_beside(here, centre);
+      const bool reaches = side.distance < (1 - kInside) * here.distance;
+      return reaches ? faces_.normal(side.triangle, side.at) : normalized(q.point - centre);
     }
     return faces_.normal(q.triangle, q.at);
   }
