@@ -101,19 +101,16 @@ def test_pipes_are_as_thick_as_their_walls(seed, away):
 
 # A cube and a box at a slant that sticks out of its top, as one solid: at corners convex edges end where reflex ones
 # begin, and faces 15 degrees apart are smooth.
-SLANTED_BOXES = (
-    np.array(
+SLANTED_BOXES = tuple(
+    np.fromstring(rows, sep=" ").reshape(-1, 3)
+    for rows in (
         """-.5 -.5 -.5  -.5 -.5 .5  -.5 .5 -.5  -.5 .5 .5  -.191832 .043307 .5  -.16403 .014524 .603759
         -.191832 .35389 .5  -.143933 .304302 .678759  .5 -.5 -.5  .5 -.5 .5  .5 .5 -.5  .223205 .014524 .5
-        .325806 .11363 .5  .325806 .317992 .5  .33903 .304302 .54935  .5 .5 .5""".split(),
-        float,
-    ).reshape(-1, 3),
-    np.array(
+        .325806 .11363 .5  .325806 .317992 .5  .33903 .304302 .54935  .5 .5 .5""",
         """0 8 1  0 2 8  0 1 3  1 4 6  1 9 4  0 3 2  1 6 3  2 3 15  3 6 15  8 10 9  1 8 9  9 11 4  9 12 11  9 13 12
         2 10 8  2 15 10  15 6 13  9 10 15  9 15 13  5 6 4  5 7 6  5 4 11  5 11 7  7 13 6  7 11 14  7 14 13  14 11 12
-        14 12 13""".split(),
-        np.int32,
-    ).reshape(-1, 3),
+        14 12 13""",
+    )
 )
 
 
