@@ -552,6 +552,12 @@ MUTATIONS = (
         "chains of fins become parts of the sheet that they branch from",
     ),
     Mutation(
+        "thickness/inscribed_balls.cpp",
+        "const bool reaches = side.distance < (1 - kInside) * here.distance;",
+        "const bool reaches = side.distance < 0;",
+        "balls touch reflex edges through the sides of them",
+    ),
+    Mutation(
         "exact/held_ball.cpp",
         "2 * samples_.hole_near(start_) > first.distance;",
         "2 * samples_.hole_near(start_) < first.distance;",
