@@ -73,6 +73,9 @@ def _complete(wanted: argparse.Namespace) -> None:
         )
     named = "{name}" in output or "{file}" in output
     if len(wanted.inputs) > 1 and not (named or paged):
+        if not Path(word := wanted.inputs[0]).suffix and not Path(word).exists():
+            known = ", ".join(filter(None, PRODUCTS))
+            raise ValueError(f"Expected a file, or one of {known}, found '{word}'; check it")
         raise ValueError(
             f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
         )

@@ -181,6 +181,7 @@ def test_degrees_are_exact_where_it_matters():
         (["a.off", "folder"], "ends in .ma"),
         (["a.off", "out/CON.ma"], "found 'CON.ma'"),
         (["a.off", "b.off", "a.ma"], "{name} in OUTPUT"),
+        (["thickness-of", "b.off", "a.ma"], "or one of thickness, "),
         (["a_##.off", "a.ma", "--frames", "1-3"], "--frames together with ####"),
         (["a.off", "a_####.ma"], "--frames together with ####"),
         (["a.off", "a_####.ma", "--frames", "1-3"], "#### in INPUT"),
