@@ -553,8 +553,8 @@ MUTATIONS = (
     ),
     Mutation(
         "thickness/inscribed_balls.cpp",
-        "const bool reaches = side.distance < (1 - kInside) * here.distance;",
-        "const bool reaches = side.distance < 0;",
+        "if (side.distance < (1 - kInside) * here.distance)",
+        "if (side.distance < 0)",
         "balls touch reflex edges through the sides of them",
     ),
     Mutation(

@@ -119,6 +119,20 @@ def test_the_corner_of_a_reflex_edge_is_no_wall_to_what_it_reaches_through():
     assert measure(SLANTED_BOXES, Settings()).minimum > 0.65
 
 
+def test_what_a_ball_touches_from_outside_is_no_wall(medial):
+    """A pillar on edge in a cube: its lower face looks to the ball from the top, at 135 degrees."""
+    half = np.sqrt(0.5)
+    pillar, faces = block(0.1, 0.1, 0.4)
+    turn = np.array([[half, -half, 0.0], [half, half, 0.0], [0.0, 0.0, 1.0]])
+    points, triangles = join(block(1, 1, 1), (pillar @ turn.T + [0.318, 0.418, 0], faces))
+    top = np.flatnonzero((points[triangles][:, :, 1] == 0.5).all(axis=1)).astype(np.int32)
+    balls = medial.BallFaces(points, triangles, smooth=False)
+    place = np.repeat([[0.0, 0.5, 0.0]], len(top), axis=0)
+    length, wall, _ = balls.inscribed_balls(place, top, np.full(len(top), 1e-3))
+    assert length == pytest.approx(0.798087, abs=1e-6)
+    assert np.isinf(wall).all()
+
+
 def frustum(around):
     return lathe([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0), (0.0, 1.0)], around)
 

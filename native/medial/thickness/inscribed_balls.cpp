@@ -125,9 +125,12 @@ class Shrinking {
   // surface is known. A ball in a tube touches it all round.
   InnerBall between_walls(const Place& x, const InnerBall& ball, double cosine) const {
     if (ball.foot.triangle < 0 || !(ball.radius > kNothing * rounding_)) return {};
+    // A face that a ball touches from outside, as where curved ones bulge through others, is no wall.
     const auto is_beside = [&](const Foot& q, const Vec3& centre) {
-      const double between = dot(x.normal, normal_at(q, centre));
-      return between > cosine && between > cosine + turned(x, q);
+      const Vec3 normal = normal_at(q, centre);
+      const double between = dot(x.normal, normal);
+      return (between > cosine && between > cosine + turned(x, q)) ||
+             dot(q.point - centre, normal) < 0;
     };
     if (!is_beside(ball.foot, centre_of(x, ball.radius))) return ball;
     const double more = uncertainty(x, ball) + gain(x, ball) * x.unknown;
@@ -277,16 +280,22 @@ class Shrinking {
     return rounding_ * longest / length(cross(q - p, r - p));  // over the least height
   }
 
-  // Returns the normal where a ball touches a foot. On a reflex edge, where faces have many
-  // normals, it is that of the ball, but of the side through which a ball reaches to it.
+  // Returns the normal where a ball touches a foot. On a reflex edge, where faces have all normals
+  // between those of its sides, it is that of the ball, but that of a side if the ball reaches
+  // through it to the edge or, under a surface that bulges, touches the edge from outside.
   Vec3 normal_at(const Foot& q, const Vec3& centre) const {
     const std::array<double, 3> opposite{q.at.c, q.at.a, q.at.b};  // of the corner, for each edge
     for (int i = 0; i < 3; ++i) {
-      if (opposite[i] != 0 || !faces_.is_reflex_crease(faces_.edge_of(q.triangle, i))) continue;
+      const int32_t edge = faces_.edge_of(q.triangle, i);
+      if (opposite[i] != 0 || !faces_.is_reflex_crease(edge)) continue;
       const Foot here{q.triangle, q.at, q.point, distance(q.point, centre)};
       const Foot side = faces_.lifted_beside(here, centre);
-      const bool reaches = side.distance < (1 - kInside) * here.distance;
-      return reaches ? faces_.normal(side.triangle, side.at) : normalized(q.point - centre);
+      if (side.distance < (1 - kInside) * here.distance)
+        return faces_.normal(side.triangle, side.at);
+      const Vec3 of_ball = normalized(q.point - centre);
+      const auto& [one, other] = faces_.creases().edges[edge].triangles;
+      const auto& normals = faces_.mesh().normal;
+      if (dot(of_ball, normals[one] + normals[other]) > 0) return of_ball;
     }
     return faces_.normal(q.triangle, q.at);
   }
