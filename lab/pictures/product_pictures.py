@@ -20,9 +20,9 @@ import blender_demo
 import blender_scene
 
 PANE = (420, 460)
-CLAY, BLUE, SAND = (0.55, 0.53, 0.5, 1.0), (0.2, 0.42, 0.7, 1.0), (0.72, 0.45, 0.2, 1.0)
-HAND, WOMAN = ("hand_closed.obj", False), ("human_woman.obj", False)
-SIDE = Vector((0.9, -0.75, 0.25))
+CLAY, SAND = (0.55, 0.53, 0.5, 1.0), (0.72, 0.45, 0.2, 1.0)
+HAND, WOMAN = "hand_closed.obj", "human_woman.obj"
+FRONT, SIDE = Vector((0.3, -1.0, 0.25)), Vector((0.9, -0.75, 0.25))
 
 
 class Panes:
@@ -31,7 +31,8 @@ class Panes:
     def __init__(self, meshes, picture):
         self.meshes, self.picture, self.files = meshes, picture, []
 
-    def body(self, name, y_up):
+    def body(self, name, y_up=False):
+        """The only object of the scene, active."""
         for thing in list(bpy.data.objects):
             bpy.data.objects.remove(thing)
         mesh = name if name == "bracket" else str(self.meshes / name)
@@ -40,13 +41,11 @@ class Panes:
         source.select_set(True)
         return source
 
-    def add(self, shown, colour, view=None, inside=None):
+    def add(self, shown, view=FRONT, inside=None):
         """A pane of an object as large as it is, or as the one that it is inside."""
         for thing in bpy.data.objects:
             thing.hide_render = thing is not shown
-        paint(shown, colour)
-        blender_scene.PIXELS = PANE
-        blender_scene.VIEW = view or Vector((0.3, -1.0, 0.25))
+        blender_scene.PIXELS, blender_scene.VIEW = PANE, view
         blender_scene.show_whole(inside or shown)
         self.render()
 
@@ -78,62 +77,54 @@ def paint(thing, colour):
         surface.inputs["Base Color"].default_value = colour
     thing.data.materials.clear()
     thing.data.materials.append(material)
-    for modifier in thing.modifiers:
-        for key, value in list(modifier.items()):
-            if isinstance(value, bpy.types.Material):
-                modifier[key] = material
+    return thing
 
 
 def balls(panes):
-    panes.add(panes.body(*HAND), CLAY)
-    for count, mode, colour in (
-        *((count, "inside", BLUE) for count in (16, 64, 256)),
-        (64, "around", SAND),
-    ):
-        panes.body(*HAND)
-        bpy.ops.object.medial_axis_balls(count=count, mode=mode.upper())
-        panes.add(bpy.context.object, colour)
+    panes.add(paint(panes.body(HAND), CLAY))
+    for count, mode in ((16, "INSIDE"), (64, "INSIDE"), (256, "INSIDE"), (64, "AROUND")):
+        panes.body(HAND)
+        bpy.ops.object.medial_axis_balls(count=count, mode=mode)
+        panes.add(bpy.context.object)
 
 
 def thickness(panes):
     for name, y_up, view in (
-        (*HAND, None),
+        (HAND, False, FRONT),
         ("rocker-arm.off", False, SIDE),
         ("club.off", True, SIDE),
-        ("bracket", False, None),
+        ("bracket", False, FRONT),
     ):
         source = panes.body(name, y_up)
         bpy.context.scene.medial_axis_thickness.limit = 0.05 * max(source.dimensions)
         bpy.ops.object.medial_axis_thickness()
-        carriers = [
+        carrier = next(
             o for o in bpy.data.objects if o.type == "MESH" and "ma_color" in o.data.attributes
-        ]
-        panes.add(carriers[0], "ma_color", view)
+        )
+        panes.add(paint(carrier, "ma_color"), view)
 
 
 def skeleton(panes):
-    for body in (HAND, WOMAN):
-        source = panes.body(*body)
+    for name in (HAND, WOMAN):
+        source = panes.body(name)
         bpy.ops.object.medial_axis_skeleton()
         bpy.context.object.data.bevel_depth = 0.2
-        paint(bpy.context.object, SAND)
-        blender_scene.PIXELS = PANE
-        blender_scene.VIEW = Vector((0.3, -1.0, 0.25))
-        blender_scene.arrange(source, bpy.context.object)
+        blender_scene.PIXELS, blender_scene.VIEW = PANE, FRONT
+        blender_scene.arrange(source, paint(bpy.context.object, SAND))
         panes.render()
 
 
 def rebuild(panes):
     rebuilt_object = importlib.import_module("medial_axis.bridge.rebuilt_object")
     inputs = importlib.import_module("medial_axis.bridge.nodes.inputs")
-    size = max(panes.body(*HAND).dimensions)
+    size = max(panes.body(HAND).dimensions)
     for values in ({}, {"Factor": 0.6}, {"Offset": 0.02 * size}, {"Min Radius": 0.07 * size}):
-        source = panes.body(*HAND)
+        source = panes.body(HAND)
         bpy.ops.object.medial_axis()
         bpy.ops.object.medial_axis_rebuild()
         made = next(o for o in bpy.data.objects if rebuilt_object.modifier_of(o))
         inputs.set_inputs(rebuilt_object.modifier_of(made), values)
-        panes.add(made, CLAY, inside=source)
+        panes.add(made, inside=source)
 
 
 def main():

@@ -65,6 +65,7 @@ class Dropper {
       if (group.dropped || group.into >= 0 || group.peak != peak) continue;
       group.dropped = true;
       for (const int32_t member : group.members) values_[member].second = peak;
+      // The order decides what unites, so it may not depend on how the group came together.
       std::sort(group.meetings.begin(), group.meetings.end());
       for (const size_t m : group.meetings) join_at(m);
     }

@@ -125,8 +125,7 @@ class Shrinking {
   // surface is known. A ball in a tube touches it all round.
   InnerBall between_walls(const Place& x, const InnerBall& ball, double cosine) const {
     if (ball.foot.triangle < 0 || !(ball.radius > kNothing * rounding_)) return {};
-    // A face that a ball touches from outside, as where curved ones bulge through others, is no
-    // wall.
+    // A face that a ball touches from outside is no wall, as where curved faces go through others.
     const auto is_beside = [&](const Foot& q, const Vec3& centre) {
       const Vec3 normal = normal_at(q, centre);
       const double between = dot(x.normal, normal);
