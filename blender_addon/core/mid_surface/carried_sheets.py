@@ -91,7 +91,8 @@ def _in_facets(sheets: ThinSheets, some: Flags) -> Flags:
 def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     """(t,) the triangles of facets at rims that leave the plane of the facets around.
 
-    A corner of theirs has gone a little way towards the edges of the solid, where the axis forks.
+    A corner of theirs has gone a little way towards the edges of the solid, where the axis forks. Where all facets
+    around are at the rim, too, the plane is that of the whole sheet.
     """
     count = len(sheets.vertices)
     at_rim = np.zeros(count, bool)
@@ -100,9 +101,13 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     area = np.where(rim | unclear, 0.0, area)
     total, sums = np.zeros(count), np.zeros((count, 3))
     np.add.at(total, sheets.triangles, area[:, None])
-    np.add.at(sums, sheets.triangles, (area[:, None] * sheets.normals)[:, None, :])
-    around = sums[sheets.triangles].sum(axis=1)
-    whole, length = total[sheets.triangles].sum(axis=1), np.linalg.norm(around, axis=1)
+    vectors = area[:, None] * sheets.normals
+    np.add.at(sums, sheets.triangles, vectors[:, None, :])
+    around, whole = sums[sheets.triangles].sum(axis=1), total[sheets.triangles].sum(axis=1)
+    lone = whole == 0.0
+    of_parts = _sums_of_parts(vectors, sheets.part, sheets.parts)
+    around[lone], whole[lone] = (each[sheets.part[lone]] for each in of_parts)
+    length = np.linalg.norm(around, axis=1)
     flat = (whole > 0.0) & (length >= (1.0 - _FLAT) * whole)
     tilted = dot(sheets.normals, around) < (1.0 - _FLAT) * length
     return _in_facets(sheets, rim & flat & tilted)
@@ -116,10 +121,15 @@ def _doubled_areas(sheets: ThinSheets) -> Floats:
 
 def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
     """(parts,) the sheets without one normal, given (t, 3) normals that are as long as triangles are large."""
+    total, whole = _sums_of_parts(vectors, part, parts)
+    return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
+
+
+def _sums_of_parts(vectors: Floats, part: Ints, parts: int) -> tuple[Floats, Floats]:
+    """(parts, 3) the sums of vectors, and (parts,) those of their lengths."""
     total = np.zeros((parts, 3))
     np.add.at(total, part, vectors)
-    whole = np.bincount(part, np.linalg.norm(vectors, axis=1), parts)
-    return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
+    return total, np.bincount(part, np.linalg.norm(vectors, axis=1), parts)
 
 
 def _are_uneven(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
