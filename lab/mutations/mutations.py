@@ -558,6 +558,18 @@ MUTATIONS = (
         "balls touch reflex edges through the sides of them",
     ),
     Mutation(
+        "thickness/inscribed_balls.cpp",
+        "dot(q.point - centre, normal) < 0 || is_moved_through(x, q);",
+        "is_moved_through(x, q);",
+        "faces that balls touch from outside are walls",
+    ),
+    Mutation(
+        "thickness/inscribed_balls.cpp",
+        "dot(q.point - centre, normal) < 0 || is_moved_through(x, q);",
+        "dot(q.point - centre, normal) < 0;",
+        "places that their bulge moved through a face have walls",
+    ),
+    Mutation(
         "exact/held_ball.cpp",
         "2 * samples_.hole_near(start_) > first.distance;",
         "2 * samples_.hole_near(start_) < first.distance;",

@@ -14,7 +14,7 @@ from medial_axis.core.thickness.thin_parts import find_thin_parts
 from support import meshes
 from support.meshes import join
 from support.thick_meshes import block, lathe, shell
-from support.wall_truth import slanted_plate, tube, turned, turned_part, walls
+from support.wall_truth import distances, slanted_plate, tube, turned, turned_part, walls
 
 pytestmark = pytest.mark.oracle
 
@@ -131,6 +131,21 @@ def test_what_a_ball_touches_from_outside_is_no_wall(medial):
     length, wall, _ = balls.inscribed_balls(place, top, np.full(len(top), 1e-3))
     assert length == pytest.approx(0.798087, abs=1e-6)
     assert np.isinf(wall).all()
+
+
+def test_a_place_that_its_bulge_moves_through_another_face_has_no_wall(medial):
+    """A round bar of 14 sides rises out of a block at 13 degrees: its smooth side does so farther out."""
+    points, faces = lathe([(0.0, -1.0), (0.4, -1.0), (0.4, 1.0), (0.0, 1.0)], 14)
+    bar = np.column_stack((points[:, 1], points[:, 2], points[:, 0])), faces
+    points, triangles = join(block(2, 3, 0.6, (0, 0, -0.68)), bar)
+    x = np.linspace(0.02, 0.17, 16)
+    places = np.column_stack((x, np.full(16, 0.1), x * np.tan(np.pi / 14) - 0.4))
+    side = [distances(points[triangles], place).argmin() for place in places]
+    balls = medial.BallFaces(points, triangles, smooth=True)
+    ball, wall, _ = balls.inscribed_balls(places, np.array(side, np.int32), np.full(16, 1e-3))
+    is_outside = places[:, 2] > -0.38
+    assert ball[is_outside].min() < 0.01, "there the smooth side is inside the block"
+    assert np.isinf(wall[is_outside]).all()
 
 
 def frustum(around):

@@ -70,14 +70,14 @@ def walls(mesh: Mesh, places: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray
         low, high = 0.0, float(np.ptp(corners.reshape(-1, 3), axis=0).max())
         for _ in range(_HALVINGS):
             radius = (low + high) / 2
-            free = _distances(corners[beside], place - radius * normals[face]).min() >= radius
+            free = distances(corners[beside], place - radius * normals[face]).min() >= radius
             low, high = (radius, high) if free else (low, radius)
-        touched = _distances(corners[beside], place - low * normals[face]) <= (1 + _TOUCHED) * low
+        touched = distances(corners[beside], place - low * normals[face]) <= (1 + _TOUCHED) * low
         found[i], between[i] = 2 * low, (facing[beside][touched] <= -0.5 + 1e-9).any()
     return found, between
 
 
-def _distances(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
+def distances(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
     """(m,) how far a place is from triangles."""
     a, b, c = corners.transpose(1, 0, 2)
     normal = np.cross(b - a, c - a)

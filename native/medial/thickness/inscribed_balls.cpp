@@ -39,6 +39,7 @@ constexpr int64_t kRunOfPlaces = 64;
 
 struct Place {
   Vec3 point, normal;
+  Vec3 flat;  // where the place is on the flat triangle
   double spacing = 0;
   double unknown = 0;  // so far it may be off the surface
   double turned = 0;   // so far its normal may be turned, as a sine
@@ -88,7 +89,7 @@ class Shrinking {
   }
 
   Place place_of(const FacePlaces& places, int32_t row) const {
-    Place x{places.points[row], {}, places.spacing[row]};
+    Place x{places.points[row], {}, places.points[row], places.spacing[row]};
     const int32_t t = faces_.triangle_of(places.triangle[row]);
     if (!places.normals.empty()) x.normal = places.normals[row];
     if (t < 0) return x;
@@ -130,7 +131,7 @@ class Shrinking {
       const Vec3 normal = normal_at(q, centre);
       const double between = dot(x.normal, normal);
       return (between > cosine && between > cosine + turned(x, q)) ||
-             dot(q.point - centre, normal) < 0;
+             dot(q.point - centre, normal) < 0 || is_moved_through(x, q);
     };
     if (!is_beside(ball.foot, centre_of(x, ball.radius))) return ball;
     const double more = uncertainty(x, ball) + gain(x, ball) * x.unknown;
@@ -300,6 +301,16 @@ class Shrinking {
     return faces_.normal(q.triangle, q.at);
   }
 
+  // Returns whether the smooth surface at a place lies behind a foot though the flat triangle lies
+  // before that of the foot, as where two faces enclose a narrow gap next to a reflex edge: then
+  // the place is inside what the smooth surfaces bound.
+  bool is_moved_through(const Place& x, const Foot& q) const {
+    const TriangleMesh& mesh = faces_.mesh();
+    const Vec3 before = x.flat - mesh.points[mesh.triangles[q.triangle][0]];
+    return dot(before, mesh.normal[q.triangle]) > rounding_ &&
+           dot(x.point - q.point, faces_.normal(q.triangle, q.at)) < 0;
+  }
+
   // Returns whether balls at two places touch walls that are opposite to each other.
   bool are_opposite(const Place& x, const InnerBall& a, const Place& y, const InnerBall& b) const {
     return dot(normal_at(a.foot, centre_of(x, a.radius)),
@@ -321,6 +332,9 @@ class Shrinking {
   Place moved_to(const Place& x, const Foot& foot) const {
     Place y = x;
     y.point = foot.point;
+    const auto& [a, b, c] = faces_.mesh().triangles[foot.triangle];
+    const auto& points = faces_.mesh().points;
+    y.flat = foot.at.a * points[a] + foot.at.b * points[b] + foot.at.c * points[c];
     y.normal = faces_.normal(foot.triangle, foot.at);
     y.unknown = kUnknown * faces_.bulge(foot.triangle);
     y.turned = turned(foot.triangle);
