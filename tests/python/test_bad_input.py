@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every error of the module's contract: the right class, one sentence, nothing half-made; valid extreme input."""
 
+import itertools
 import re
 import threading
 import time
@@ -133,22 +134,19 @@ def test_triangles_with_repeated_corners_are_harmless(medial):
     assert np.array_equal(analysis.side, plain.side)
 
 
-@pytest.mark.parametrize("theta", [-1e-9, -1.0, np.pi / 2 + 1e-6, 22.5, np.nan, np.inf])
-def test_theta_out_of_range(medial, theta):
-    analysis = medial.MedialAnalysis(CLOUD)
-    for call in (analysis.select, analysis.extract):
-        with pytest.raises(medial.InvalidInputError) as error:
-            call(theta=theta)
-        assert "theta" in one_sentence(error)
+OUT_OF_RANGE = {
+    "theta": [-1e-9, -1.0, np.pi / 2 + 1e-6, 22.5, np.nan, np.inf],
+    "rho": [-1e-9, -8.0, np.nan],
+}
 
 
-@pytest.mark.parametrize("rho", [-1e-9, -8.0, np.nan])
-def test_rho_out_of_range(medial, rho):
+@pytest.mark.parametrize("name", OUT_OF_RANGE)
+def test_thresholds_out_of_range(medial, name):
     analysis = medial.MedialAnalysis(CLOUD)
-    for call in (analysis.select, analysis.extract):
+    for call, value in itertools.product((analysis.select, analysis.extract), OUT_OF_RANGE[name]):
         with pytest.raises(medial.InvalidInputError) as error:
-            call(rho=rho)
-        assert "rho" in one_sentence(error)
+            call(**{name: value})
+        assert name in one_sentence(error)
 
 
 def test_limits_of_the_thresholds_are_valid(medial):

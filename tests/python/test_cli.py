@@ -547,14 +547,5 @@ def test_documented_options_are_all():
         elif not isinstance(option, Choice):
             shown = f"{shown:g}"
         assert table.get(name.replace("_", "-")) == shown, name
-    for flag in (
-        "frames",
-        "object",
-        "format",
-        "options",
-        "force",
-        "allow-scripts",
-        "json",
-        "quiet",
-    ):
-        assert flag in table
+    flags = {"frames", "object", "format", "options", "force", "allow-scripts", "json", "quiet"}
+    assert flags <= {*table}

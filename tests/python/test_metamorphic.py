@@ -19,16 +19,8 @@ DEGENERATE = {
     "uv sphere": meshes.uv_sphere()[0] * (1.0, 0.8, 0.6),
 }
 ANALYSIS_ARRAYS = ("samples", "edges", "theta", "rho", "theta_both", "rho_both", "side", "bounded")
-MESH_ARRAYS = (
-    "vertices",
-    "radius",
-    "face_offsets",
-    "face_vertices",
-    "theta",
-    "rho",
-    "side",
-    "generators",
-)
+MESH_ARRAYS = ("vertices", "radius", "face_offsets", "face_vertices")
+MESH_ARRAYS += ("theta", "rho", "side", "generators")
 
 
 @pytest.fixture(params=INPUTS)

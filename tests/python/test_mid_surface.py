@@ -58,9 +58,15 @@ def test_sheets_of_flat_walls(name):
     check_flat(known, sheets_of(known.mesh))
 
 
+@pytest.mark.parametrize(("thickness", "samples"), [(0.04, 3000), (0.04, 4000), (0.06, 1500)])
+def test_three_walls_meet_in_one_corner(thickness, samples):
+    known = mid_surfaces.tray(thickness)  # the line of two sheets went on beyond it, and back
+    check_flat(known, sheets_of(known.mesh, Settings(samples=samples)))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("name", mid_surfaces.FLAT[:7])
+@pytest.mark.parametrize("name", mid_surfaces.FLAT[:8])
 def test_sheets_of_flat_walls_at_the_defaults(name, seed):
     """In a random pose, for which the sheets are turned back."""
     known = mid_surfaces.ALL[name]()
@@ -254,6 +260,18 @@ def test_sheets_that_should_meet_and_do_not_are_told(monkeypatch):
     monkeypatch.setattr(middle, "thin_sheets", without_some)
     said = sheets_of(known.mesh).warnings
     assert any("2 pieces and the solid 1: sheets that should meet do not" in text for text in said)
+
+
+def test_sheets_with_other_loops_than_the_axis_say_so(monkeypatch):
+    def pierced(sheets):
+        made = few_faces.few_faces(sheets, len(sheets.vertices), None)
+        return replace(
+            made, offsets=made.offsets[:-1], corners=made.corners[:-3], part=made.part[:-1]
+        )
+
+    monkeypatch.setattr(middle, "_simplified", lambda sheets, *_: pierced(sheets))
+    said = sheets_of(mid_surfaces.holed_shell(around=32, rings=16).mesh).warnings
+    assert any("the sheets have other loops" in text for text in said)
 
 
 @pytest.mark.parametrize("name", ["profile_t", "bent_sheet"])

@@ -197,14 +197,7 @@ def test_a_pose_keeps_the_pairs():
             ((*FORK, 0.2), (*CHEST, 0.17)), ((*CHEST, 0.17), (0, 0.05, 1.9, 0.1)), *arms, *legs
         )
     )
-    assert {
-        "pelvis",
-        "head.01",
-        "arm.01.L",
-        "arm.01.R",
-        "leg.01.L",
-        "leg.01.R",
-    } <= set(names)
+    assert {"pelvis", "head.01", "arm.01.L", "arm.01.R", "leg.01.L", "leg.01.R"} <= set(names)
     for name, row in names.items():
         if name[-2:] in (".L", ".R"):
             assert (bones.tail[row, 0] > 0) == name.endswith(".L")

@@ -15,10 +15,11 @@ from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.rig.bones import Bones, Stubs, bones_of
 from medial_axis.core.rig.names import names_of
 from medial_axis.core.rig.rig import compute_rig
-from medial_axis.core.rig.weights import _share_with_parents, axis_weights, edges_of
+from medial_axis.core.rig.weights import _share_with_parents, axis_weights
 from medial_axis.core.settings import KeptLoops, SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.shape.nearness import nearest
 from medial_axis.core.shape.shape import Shape
+from medial_axis.core.shape.triangles import edges_of
 from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.chords import keep_inside, kept_inside
 from medial_axis.core.skeleton.chosen_ends import join_ends

@@ -24,14 +24,7 @@ CORE = {
     for folder in ("commands", "core")
     for path in (ADDON / folder).rglob("*.py")
 }
-FRONT = {
-    "__init__.py",
-    "__main__.py",
-    "cli.py",
-    "console.py",
-    "library.py",
-    "py.typed",
-}
+FRONT = {"__init__.py", "__main__.py", "cli.py", "console.py", "library.py", "py.typed"}
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("wheel")]
 

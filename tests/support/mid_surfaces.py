@@ -97,6 +97,17 @@ def box_section(t=0.02):
     )
 
 
+def tray(t=0.05):
+    """A box without a lid, in whose corners three walls meet."""
+    x, y, z = far = np.array((1.0, 0.7, 0.5))
+    low, high = np.full(3, t / 2), far - (t / 2, t / 2, 0)
+    walls = ((t, y, z), (x, t, z), (x, y, t))
+    mesh = union(*(((0, 0, 0), wall) for wall in walls), ((x - t, 0, 0), far), ((0, y - t, 0), far))
+    a, b, c = np.diag(high - low)
+    sheets = ((low, a, b), (low, a, c), (low, b, c), (low + a, b, c), (low + b, a, c))
+    return _known(mesh, t, (1, 0, 0), *sheets)
+
+
 def stairs(t=0.02):
     """Treads of 0.4 and risers of 0.3, whose middles begin and end half a thickness beside the walls."""
     h, rectangles = t / 2, []
@@ -202,6 +213,7 @@ ALL = {
         profile_l,
         box_section,
         stairs,
+        tray,
         ribbed_plate,
         bent_sheet,
         holed_shell,
@@ -209,4 +221,4 @@ ALL = {
         round_plate,
     )
 }
-FLAT = list(ALL)[:8]
+FLAT = list(ALL)[:9]

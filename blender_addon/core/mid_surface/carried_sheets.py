@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
+from ..shape.triangles import edges_of
 from ..small_matrices import dot, shortest_solutions
 from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
@@ -57,8 +58,8 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     rows.add(*ends.planes())
     corners = ends.without_lost_corners(straight, rows.solved(straight), walls)
     vertices = ends.without_ways_back(corners)
-    stays = planes.shared() | ends.touched(len(vertices))
-    vertices = unfolded(vertices, sheets.triangles, normals, stays)
+    stays = ends.touched(len(vertices))
+    vertices = unfolded(vertices, sheets.triangles, normals, stays, rows.within_planes)
     return CarriedSheets(
         vertices, sheets.triangles, sheets.part, 2.0 * planes.radii_at_corners(vertices)
     )
@@ -129,7 +130,7 @@ def _sums_of_parts(vectors: Floats, part: Ints, parts: int) -> tuple[Floats, Flo
     """(parts, 3) the sums of vectors, and (parts,) those of their lengths."""
     total = np.zeros((parts, 3))
     np.add.at(total, part, vectors)
-    return total, np.bincount(part, np.linalg.norm(vectors, axis=1), parts)
+    return total, np.asarray(np.bincount(part, np.linalg.norm(vectors, axis=1), parts), np.float64)
 
 
 def _are_uneven(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
@@ -220,8 +221,7 @@ class _Planes:
         Two sheets that meet at a sharp convex edge may have its last vertices in one of them only. These are in the
         plane of the other sheet, too, as the vertex before them is.
         """
-        sides = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
-        sides = sides.reshape(-1, 2).astype(np.int64)
+        sides = edges_of(sheets.triangles).astype(np.int64)
         sides = sides[sheets.at_edge[sides].all(axis=1)]
         sides = np.unique(np.concatenate((sides, sides[:, ::-1])), axis=0)
         count = np.bincount(self.vertex, minlength=len(sheets.vertices))
@@ -269,10 +269,6 @@ class _Planes:
                 site[rows] = sites[nearest]
         return site
 
-    def shared(self) -> Flags:
-        """(v,) the vertices of more than one sheet."""
-        return np.asarray(np.bincount(self.vertex, minlength=self._count) > 1)
-
     def normals_at_corners(self) -> Floats:
         """(t, 3, 3) the normals of the sheets at the corners of the triangles."""
         return self.normals[self._of_corner]
@@ -300,3 +296,8 @@ class _Rows:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
         lack = self._targets - dot(self._squares, start[:, None])
         return start + shortest_solutions(self._squares, lack, _PLANE)
+
+    def within_planes(self, vertex: Longs, ways: Floats) -> Floats:
+        """(k, 3) the parts of ways of vertices that do not leave their planes."""
+        squares = self._squares[vertex]
+        return ways - shortest_solutions(squares, dot(squares, ways[:, None]), _PLANE)

@@ -27,7 +27,7 @@ from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, Thickness
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
 from ..shape.solid_faces import SolidFaces, sharp_angle_of
-from ..shape.triangles import FEW, unit_normals
+from ..shape.triangles import FEW, edges_of, euler_characteristic, unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough
 from ..united import united
@@ -185,10 +185,7 @@ def _walls(shape: Shape, solid: SolidFaces | None, settings: Settings) -> Walls:
 def _welded(sheets: CarriedSheets) -> CarriedSheets:
     """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
     step = _SAME * length_of(np.ptp(sheets.vertices, axis=0))
-    ends = np.sort(
-        np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2).reshape(-1, 2),
-        axis=1,
-    )
+    ends = edges_of(sheets.triangles)
     along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
     row = united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
     triangles = row[sheets.triangles]
@@ -326,7 +323,12 @@ def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
 def _torn(triangles: Ints, found: Computation, thin: ThinSheets) -> tuple[str, ...]:
     pieces, level = _pieces(triangles), found.axis.level
     if level is None or pieces <= level.betti[0]:
-        return ()
+        if euler_characteristic(triangles) == euler_characteristic(thin.triangles):
+            return ()
+        return (
+            "the sheets have other loops than the medial axis between the same walls: somewhere they lie over each "
+            "other or are torn; more samples may help",
+        )
     if pieces - joined_by_thick_parts(found.axis, thin) <= level.betti[0]:
         return (
             f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: what joins them is not thin, and is "

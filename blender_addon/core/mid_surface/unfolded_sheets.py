@@ -3,24 +3,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-from ..arrays import Flags, Floats, Ints
+from ..arrays import Flags, Floats, Ints, Longs
 from ..small_matrices import dot
 
 _ROUNDS = 30  # at most; a fold goes in a few, and what is left lies between vertices that stay
 
 
-def unfolded(vertices: Floats, triangles: Ints, normals: Floats, stays: Flags) -> Floats:
-    """Move vertices of triangles that are turned over to the middle of those around them, along the sheet.
+def unfolded(
+    vertices: Floats,
+    triangles: Ints,
+    normals: Floats,
+    stays: Flags,
+    within_planes: Callable[[Longs, Floats], Floats],
+) -> Floats:
+    """Move vertices of triangles that are turned over towards the middle of those around them.
 
-    `normals` (t, 3, 3) are those of the sheet at the corners of each triangle; the vertices at rims and where sheets
-    meet stay.
+    `normals` (t, 3, 3) are those of the sheet at the corners of each triangle; the vertices at rims stay, and the
+    others move `within_planes`, which takes (k,) vertices and (k, 3) ways: along their sheet, or where sheets meet.
     """
     found = vertices.copy()
     upward = normals.sum(axis=1)
-    of_vertex = np.zeros_like(found)
-    of_vertex[triangles] = normals
     near = np.ones(len(triangles), bool)
     for _ in range(_ROUNDS):
         rows = np.flatnonzero(near)
@@ -32,18 +38,16 @@ def unfolded(vertices: Floats, triangles: Ints, normals: Floats, stays: Flags) -
         if not moves.any():
             break
         near = moves[triangles].any(axis=1)  # no other triangle changes
-        away = _to_middle(found, triangles[near], moves)
-        along = away - dot(away, of_vertex)[:, None] * of_vertex
-        found[moves] += along[moves]
+        vertex = np.flatnonzero(moves)
+        found[vertex] += within_planes(vertex, _to_middle(found, triangles[near])[vertex])
     return found
 
 
-def _to_middle(vertices: Floats, triangles: Ints, moves: Flags) -> Floats:
-    """(v, 3) the way from each vertex that moves to the mean of those around it."""
+def _to_middle(vertices: Floats, triangles: Ints) -> Floats:
+    """(v, 3) the way from each vertex to the mean of those around it in triangles."""
     total, sums = np.zeros(len(vertices)), np.zeros_like(vertices)
     for step in (1, 2):
         other = np.roll(triangles, step, axis=1)
         np.add.at(total, triangles, 1.0)
         np.add.at(sums, triangles, vertices[other])
-    middle = sums / np.maximum(total, 1.0)[:, None]
-    return np.where(moves[:, None], middle - vertices, 0.0)
+    return sums / np.maximum(total, 1.0)[:, None] - vertices

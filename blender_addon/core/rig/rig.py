@@ -14,12 +14,13 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, SkeletonSettings
 from ..shape.shape import Shape
+from ..shape.triangles import edges_of
 from ..skeleton.compute import Skeletonization, compute_skeleton
 from ..small_matrices import dot, times
 from .bones import Body, Bones, bones_of
 from .names import limbs_of, names_of
 from .roll import flats_of
-from .weights import axis_weights, edges_of
+from .weights import axis_weights
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,12 +56,6 @@ def axis_weights(
     return bone.astype(np.int32), found / found.sum(axis=1, keepdims=True)
 
 
-def edges_of(triangles: Ints) -> Ints:
-    """Return the edges of triangles, each once, (e, 2)."""
-    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return np.unique(pairs, axis=0)
-
-
 def _along_branches(weight: Floats, bones: Bones, places: Places) -> Longs:
     """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none.
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat triangles: their normals, and an even selection of many."""
+"""Triangles: their normals and edges, their Euler characteristic, and an even selection of many."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 
 # At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
@@ -25,3 +25,14 @@ def unit_normals(corners: Floats) -> tuple[Floats, Floats]:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
     return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths
+
+
+def edges_of(triangles: Ints) -> Ints:
+    """Return the edges of triangles, each once, (e, 2)."""
+    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(pairs, axis=0)
+
+
+def euler_characteristic(triangles: Ints) -> int:
+    """The vertices less the edges and plus the triangles, which is the pieces less the loops and plus the cavities."""
+    return len(np.unique(triangles)) - len(edges_of(triangles)) + len(triangles)
