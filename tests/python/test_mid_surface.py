@@ -274,6 +274,16 @@ def test_sheets_with_other_loops_than_the_axis_say_so(monkeypatch):
     assert any("the sheets have other loops" in text for text in said)
 
 
+def test_vertices_at_one_place_stay_two_where_uniting_them_closes_a_hole():
+    """An edge of a hole with three corners has no length."""
+    turn = np.radians((0, 120, 240, 180, 180, 0))
+    points = np.column_stack((np.cos(turn), np.sin(turn), 0 * turn)) * np.repeat((4, 1), 3)[:, None]
+    ring = ((0, 1, 5), (1, 3, 5), (1, 2, 3), (2, 4, 3), (2, 0, 4), (0, 5, 4))
+    triangles = np.array(ring, np.int32)
+    sheets = CarriedSheets(points, triangles, np.zeros(6, np.int32), np.ones((6, 3)))
+    assert topology.euler(middle._welded(sheets).triangles) == topology.euler(triangles) == 0
+
+
 @pytest.mark.parametrize("name", ["profile_t", "bent_sheet"])
 def test_triangles_of_a_size_are_even(name):
     """Where the bend begins, its short edges lie beside a flat side; triangles there must be no slivers."""

@@ -105,20 +105,6 @@ def with_value(value):
         with_value(np.nan),
         with_value(np.inf),
     ],
-    ids=[
-        "two columns",
-        "one row less",
-        "flat",
-        "three axes",
-        "twice as many",
-        "none",
-        "int",
-        "bool",
-        "complex",
-        "str",
-        "nan",
-        "inf",
-    ],
 )
 def test_normals_of_a_wrong_shape_type_or_value(medial, sides, normals):
     with pytest.raises(medial.InvalidInputError, match="normal") as error:

@@ -185,9 +185,12 @@ def _walls(shape: Shape, solid: SolidFaces | None, settings: Settings) -> Walls:
 def _welded(sheets: CarriedSheets) -> CarriedSheets:
     """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
     step = _SAME * length_of(np.ptp(sheets.vertices, axis=0))
-    ends = edges_of(sheets.triangles)
+    ends = edges_of(sheets.triangles).astype(np.int64)
     along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
-    row = united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
+    short = ends[np.linalg.norm(along, axis=1) < step]
+    row = united(len(sheets.vertices), short)
+    pinches = _pinches(sheets.triangles, ends, row)
+    row = united(len(sheets.vertices), short[~pinches[row[short[:, 0]]]])
     triangles = row[sheets.triangles]
     kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
     used, triangles = np.unique(triangles[kept], return_inverse=True)
@@ -197,6 +200,22 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         sheets.part[kept],
         sheets.at_corners[kept],
     )
+
+
+def _pinches(triangles: Ints, ends: Longs, row: Longs) -> Flags:
+    """(v,) the rows whose vertices, united, would lay edges on each other between which no triangle vanishes."""
+    count = len(row)
+    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].astype(np.int64), axis=2)
+    edge = np.searchsorted(ends @ (count, 1), sides @ (count, 1))
+    lasts = row[ends[:, 0]] != row[ends[:, 1]]
+    vanish = lasts[edge].sum(axis=1) == 2
+    of = united(len(ends), edge[vanish][lasts[edge[vanish]]].reshape(-1, 2))
+    between = np.sort(row[ends[lasts]], axis=1)
+    keys = np.unique(np.column_stack((between, of[lasts])), axis=0)[:, :2]
+    several = (keys[1:] == keys[:-1]).all(axis=1)
+    found = np.zeros(count, bool)
+    found[keys[1:][several]] = True
+    return found
 
 
 def _simplified(
