@@ -206,15 +206,16 @@ def _pinches(triangles: Ints, ends: Longs, row: Longs) -> Flags:
     """(v,) the rows whose vertices, united, would lay edges on each other between which no triangle vanishes."""
     count = len(row)
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].astype(np.int64), axis=2)
-    edge = np.searchsorted(ends @ (count, 1), sides @ (count, 1))
+    keys = ends[:, 0] * count + ends[:, 1]
+    edge = np.searchsorted(keys, sides[..., 0] * count + sides[..., 1])
     lasts = row[ends[:, 0]] != row[ends[:, 1]]
     vanish = lasts[edge].sum(axis=1) == 2
     of = united(len(ends), edge[vanish][lasts[edge[vanish]]].reshape(-1, 2))
     between = np.sort(row[ends[lasts]], axis=1)
-    keys = np.unique(np.column_stack((between, of[lasts])), axis=0)[:, :2]
-    several = (keys[1:] == keys[:-1]).all(axis=1)
+    pairs = np.unique(np.column_stack((between, of[lasts])), axis=0)[:, :2]
+    several = (pairs[1:] == pairs[:-1]).all(axis=1)
     found = np.zeros(count, bool)
-    found[keys[1:][several]] = True
+    found[pairs[1:][several]] = True
     return found
 
 
