@@ -154,7 +154,7 @@ class _Planes:
     """
 
     def __init__(self, sheets: ThinSheets, bent: Flags, walls: Walls) -> None:
-        self._count = count = len(sheets.vertices)
+        count = len(sheets.vertices)
         key = sheets.part[:, None] * np.int64(count) + sheets.triangles
         pairs, of_corner = np.unique(key, return_inverse=True)
         self._of_corner = of_corner.reshape(key.shape)

@@ -211,11 +211,13 @@ def _pinches(triangles: Ints, ends: Longs, row: Longs) -> Flags:
     lasts = row[ends[:, 0]] != row[ends[:, 1]]
     vanish = lasts[edge].sum(axis=1) == 2
     of = united(len(ends), edge[vanish][lasts[edge[vanish]]].reshape(-1, 2))
-    between = np.sort(row[ends[lasts]], axis=1)
-    pairs = np.unique(np.column_stack((between, of[lasts])), axis=0)[:, :2]
-    several = (pairs[1:] == pairs[:-1]).all(axis=1)
+    first = np.flatnonzero(lasts & (of == np.arange(len(ends))))  # one edge of each such set
+    pairs = np.sort(row[ends[first]], axis=1)
+    _, which, uses = np.unique(
+        pairs[:, 0] * count + pairs[:, 1], return_inverse=True, return_counts=True
+    )
     found = np.zeros(count, bool)
-    found[pairs[1:][several]] = True
+    found[pairs[uses[which] > 1]] = True
     return found
 
 

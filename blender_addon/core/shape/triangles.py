@@ -29,8 +29,10 @@ def unit_normals(corners: Floats) -> tuple[Floats, Floats]:
 
 def edges_of(triangles: Ints) -> Ints:
     """Return the edges of triangles, each once, (e, 2)."""
-    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return np.unique(pairs, axis=0)
+    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
+    count = int(pairs.max(initial=0)) + 1
+    low, high = np.divmod(np.unique(pairs[:, 0] * count + pairs[:, 1]), count)
+    return np.column_stack((low, high)).astype(triangles.dtype)
 
 
 def euler_characteristic(triangles: Ints) -> int:
