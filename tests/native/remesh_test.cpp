@@ -188,6 +188,29 @@ TEST(SheetComplex, CollapsesKeepBettiNumbersAndStrata) {
   EXPECT_GT(collapses, 20'000);
 }
 
+// Vertices of one place may have an edge between them, or a slit of no width.
+TEST(SheetComplex, VerticesOfOnePlaceUniteAndKeepBettiNumbersAndStrata) {
+  int with_edge = 0, without = 0;
+  for (uint64_t seed = 0; seed < 2000; ++seed) {
+    Numbers random(seed);
+    LatticeSquares squares(random);
+    if (seed % 2) squares.add_wires(random);
+    SheetComplex mesh = squares.complex();
+    const auto before = betti_numbers(squares.triangles, squares.wires);
+    for (int i = 0; i < 200; ++i) {
+      const int32_t from = random.below(mesh.vertices()), to = random.below(mesh.vertices());
+      if (from == to || !mesh.has_triangles(from) || !mesh.has_triangles(to)) continue;
+      if (!mesh.can_unite(from, to)) continue;
+      ++(mesh.uses(from, to) ? with_edge : without);
+      mesh.collapse(from, to);
+    }
+    expect_strata(mesh, squares.wires);
+    ASSERT_EQ(betti_numbers(left_of(mesh), squares.wires), before) << seed;
+  }
+  EXPECT_GT(with_edge, 1000);
+  EXPECT_GT(without, 1000);
+}
+
 TEST(SheetComplex, FlipsAndSplitsKeepBettiNumbersAndStrata) {
   int64_t flips = 0;
   for (uint64_t seed = 0; seed < 500; ++seed) {

@@ -71,6 +71,17 @@ def test_flat_walls_have_exact_places_and_reach_edges_and_corners(name):
     assert found.folds == found.crossings == 0
 
 
+@pytest.mark.parametrize(
+    "name, size, seed",
+    [("bracket", 4000, 3), ("profile", 1000, 1), ("stairs", 4000, 2), ("wedge", 4000, 1)],
+)
+def test_no_two_vertices_have_one_place(name, size, seed):
+    """Sheets that end in one corner of the solid have one vertex there, without a slit between them."""
+    level = Case(name, size, seed, mesh="even").made(crisp=True).output()
+    used = level.vertices[np.unique(level.face_vertices)]
+    assert len(np.unique(used, axis=0)) == len(used)
+
+
 @pytest.mark.parametrize("name", CURVED)
 def test_curved_walls_are_missed_by_chords_only(name):
     found, (missed, off) = made(name).measured(), CURVED[name]

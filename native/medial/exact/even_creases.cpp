@@ -128,4 +128,23 @@ void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
   CreaseHolder(even, samples, generators, hole, radius).hold(run);
 }
 
+void unite_held(EvenMesh& even) {
+  std::vector<int32_t> held, moved;
+  for (int32_t v = 0; v < even.mesh.vertices(); ++v) {
+    if (even.held[v] != kFree && even.mesh.has_triangles(v)) held.push_back(v);
+  }
+  std::ranges::sort(held, {}, [&](int32_t v) {
+    const auto& [x, y, z] = even.position[v];
+    return std::tuple(x, y, z, even.held[v], v);
+  });
+  for (size_t i = 0; i < held.size(); ++i) {
+    const Vec3 here = even.position[held[i]];
+    for (size_t j = i + 1; j < held.size() && even.position[held[j]] == here; ++j) {
+      if (!even.mesh.can_unite(held[i], held[j])) continue;
+      collapse(even, held[i], held[j], moved);
+      break;
+    }
+  }
+}
+
 }  // namespace medial

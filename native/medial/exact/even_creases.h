@@ -13,4 +13,7 @@ void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
                      std::span<const Edge> generators, std::span<const double> hole,
                      std::span<const double> radius, const Run& run);
 
+// Makes one vertex of those that are held at one place, where the mesh keeps its topology by it.
+void unite_held(EvenMesh& even);
+
 }  // namespace medial

@@ -63,6 +63,7 @@ class EvenSheets {
     advance(progress_, share);
     throw_if_cancelled(progress_);
     remesh(even, options, run_);
+    unite_held(even);
   }
 
   EvenMesh start() {

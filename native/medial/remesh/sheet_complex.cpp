@@ -156,6 +156,11 @@ std::vector<Edge> SheetComplex::edges() const {
   return all;
 }
 
+bool SheetComplex::ends_wire(int32_t v) const {
+  const auto wire = std::lower_bound(wires_.begin(), wires_.end(), Edge{v, -1});
+  return wire != wires_.end() && (*wire)[0] == v;
+}
+
 bool SheetComplex::is_wired(int32_t a, int32_t b) const {
   return std::binary_search(wires_.begin(), wires_.end(), Edge{a, b});
 }
@@ -173,26 +178,31 @@ bool SheetComplex::has_triangle(int32_t a, int32_t b, int32_t c) const {
 // edge from there to the other end. Where both are parts of curves, the triangle between them was a
 // whole sheet, smaller than the edges shall be, and the two curves become one, but for the last
 // triangle between three rims.
-SheetComplex::Merge SheetComplex::merge_of(int32_t from, int32_t to) const {
-  Merge found = Merge::keeps_curves;
+bool SheetComplex::loses_sheet(int32_t from, int32_t to) const {
   const std::vector<int32_t> at_edge = triangles_at(from, to);
-  for (const int32_t t : at_edge) {
+  return std::ranges::any_of(at_edge, [&](int32_t t) {
     const int32_t third = third_corner(t, from, to);
-    const int one = uses(from, third), other = uses(to, third);
-    if (one == 2 || other == 2) continue;
-    if (one + other == 2) return Merge::loses_triangle;
-    found = Merge::joins_curves;
-  }
-  return found;
+    return uses(from, third) == 1 && uses(to, third) == 1;
+  });
+}
+
+bool SheetComplex::can_collapse(int32_t from, int32_t to) const {
+  if (stays_[from] || stratum_[from] > stratum_[to]) return false;
+  const int at_edge = uses(from, to);
+  if (at_edge == 0 || (stratum_[from] != Stratum::sheet && at_edge == 2)) return false;
+  return links_have_in_common(from, to, at_edge) &&
+         (stratum_[from] == Stratum::sheet || !loses_sheet(from, to));
+}
+
+bool SheetComplex::can_unite(int32_t from, int32_t to) const {
+  if (stratum_[from] == Stratum::sheet || ends_wire(from) || ends_wire(to)) return false;
+  return links_have_in_common(from, to, std::max(uses(from, to), 1)) && !loses_sheet(from, to);
 }
 
 // The link condition: the links of the two ends have in common what the link of the edge is, which
 // is the third corners of the triangles at it. For any complex the collapse of such an edge keeps
 // the homotopy type (Dey, Edelsbrunner, Guha and Nekhayev 1999; Attali, Lieutier and Salinas 2011).
-bool SheetComplex::can_collapse(int32_t from, int32_t to) const {
-  if (stays_[from] || stratum_[from] > stratum_[to]) return false;
-  const int at_edge = uses(from, to);
-  if (at_edge == 0 || (stratum_[from] != Stratum::sheet && at_edge == 2)) return false;
+bool SheetComplex::links_have_in_common(int32_t from, int32_t to, int at_edge) const {
   const uint32_t beside = newest_mark_ + 1, common = newest_mark_ += 2;
   for_corners(from, [&](int32_t other) { mark_[other] = beside; });
   int count = 0;
@@ -210,19 +220,18 @@ bool SheetComplex::can_collapse(int32_t from, int32_t to) const {
     const auto& [a, b] = link_of(triangles_[t], from);
     closes = closes || (mark_[a] == common && mark_[b] == common && has_triangle(to, a, b));
   });
-  return !closes &&
-         (stratum_[from] == Stratum::sheet || merge_of(from, to) != Merge::loses_triangle);
+  return !closes;
 }
 
 void SheetComplex::collapse(int32_t from, int32_t to) {
-  const bool joins = stratum_[from] != Stratum::sheet && merge_of(from, to) == Merge::joins_curves;
+  const bool is_inside = stratum_[from] == Stratum::sheet;
   const std::vector<int32_t> at_edge = triangles_at(from, to);
   for (const int32_t t : at_edge) {
     for (int i = 0; i < 3; ++i) unlink(3 * t + i);
     triangles_[t] = {-1, -1, -1};
   }
   while (first_[from] >= 0) replace_corner(first_[from] / 3, from, to);
-  if (!joins) return;
+  if (is_inside) return;
   std::vector<int32_t> beside{to};
   for_corners(to, [&](int32_t other) { beside.push_back(other); });
   for (const int32_t v : beside) {

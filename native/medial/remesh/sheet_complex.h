@@ -81,6 +81,11 @@ class SheetComplex {
   // smaller than an edge may go: two nodes become one along the curve between them, and a sheet of
   // a single triangle becomes a curve.
   bool can_collapse(int32_t from, int32_t to) const;
+  // Returns whether the mesh keeps its topology if two vertices of one place become one: they have
+  // an edge between them, or an edge each to one common neighbour. The first is not inside a sheet,
+  // and no wire ends at them.
+  bool can_unite(int32_t from, int32_t to) const;
+  // Replaces a vertex by another one, where one of the two above says that it can be.
   void collapse(int32_t from, int32_t to);
 
   // Returns whether an edge inside a sheet can be replaced by the other diagonal of its two
@@ -98,8 +103,9 @@ class SheetComplex {
   Stratum find_stratum(int32_t v) const;
   bool link_is_circle(int32_t v) const;
   bool link_is_arcs(int32_t v, int32_t from, int32_t to) const;
-  enum class Merge : uint8_t { keeps_curves, joins_curves, loses_triangle };
-  Merge merge_of(int32_t from, int32_t to) const;
+  bool loses_sheet(int32_t from, int32_t to) const;
+  bool links_have_in_common(int32_t from, int32_t to, int at_edge) const;
+  bool ends_wire(int32_t v) const;
   bool is_wired(int32_t a, int32_t b) const;
   bool has_triangle(int32_t a, int32_t b, int32_t c) const;
   // Adds or removes a corner, 3 * triangle + place, to or from the list of its vertex.
