@@ -72,7 +72,6 @@ class Collapser {
       if (gone(static_cast<int32_t>(v))) continue;
       number[v] = static_cast<int32_t>(out.row.size());
       out.row.push_back(row_[v]);
-      if (locks_) out.held.push_back(is_held(static_cast<int32_t>(v)));
       out.mesh.vertices.push_back(spheres_[v].centre);
       out.mesh.radius.push_back(spheres_[v].radius);
     }
@@ -97,7 +96,6 @@ class Collapser {
   static constexpr uint32_t kGone = UINT32_MAX;
   bool gone(int32_t v) const { return version_[v] == kGone; }
 
-  bool is_held(int32_t v) const { return locks_->is_end(v) || locks_->is_sharp(v, spheres_[v]); }
 
   // Says which edges may collapse now.
   struct Allowed {

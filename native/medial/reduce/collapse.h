@@ -18,9 +18,7 @@ namespace medial {
 struct Collapsed {
   SphereMesh mesh;
   std::vector<int32_t> row;
-  // Only between sheets:
-  std::vector<int32_t> part;  // (t)
-  std::vector<uint8_t> held;  // (v) nodes, and vertices at sharp edges
+  std::vector<int32_t> part;  // (t) only between sheets
 };
 
 // The given mesh must be checked, and in a unit near its extent; `places` are on its surface. With

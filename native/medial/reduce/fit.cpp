@@ -42,12 +42,10 @@ double dot_all(const Step& a, const Step& b) {
 
 class Fitter {
  public:
-  Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
-         std::span<const uint8_t> fixed)
+  Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run)
       : mesh_(mesh),
         first_(mesh),
         places_(places),
-        fixed_(fixed),
         run_(run),
         envelope_(mesh),
         found_(places.size()) {
@@ -128,7 +126,6 @@ class Fitter {
         whole += demands[p].matrix[k][k];
       }
     }
-    keep_fixed(right);
     const double floor = 1e-6 * whole / static_cast<double>(n);
     const auto apply = [&](const Step& x) {
       Step y(n);
@@ -146,16 +143,9 @@ class Fitter {
           y[parts[p][k / 4]][k % 4] += sum;
         }
       }
-      keep_fixed(y);
       return y;
     };
     return conjugate_gradients(apply, right);
-  }
-
-  void keep_fixed(Step& step) const {
-    for (size_t v = 0; v < fixed_.size(); ++v) {
-      if (fixed_[v]) step[v] = {};
-    }
   }
 
   template <typename Apply>
@@ -237,7 +227,6 @@ class Fitter {
   SphereMesh& mesh_;
   SphereMesh first_;  // before anything moved
   std::span<const TangentPlace> places_;
-  std::span<const uint8_t> fixed_;  // (v) or empty
   Run run_;
   Envelope envelope_;
   std::vector<Envelope::Found> found_;
@@ -247,12 +236,9 @@ class Fitter {
 
 }  // namespace
 
-bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
-                 std::span<const uint8_t> fixed) {
-  const bool all_fixed =
-      !fixed.empty() && std::all_of(fixed.begin(), fixed.end(), [](uint8_t f) { return f != 0; });
-  if (places.empty() || mesh.vertices.empty() || all_fixed) return false;
-  return Fitter(mesh, places, run, fixed).fit();
+bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run) {
+  if (places.empty() || mesh.vertices.empty()) return false;
+  return Fitter(mesh, places, run).fit();
 }
 
 }  // namespace medial

@@ -11,10 +11,9 @@
 
 namespace medial {
 
-// Moves the spheres of a mesh, in a unit near its extent, but those that are marked as fixed: all
-// may move if there are no marks. A sphere, as (x, y, z, r), changes by at most half of its radius.
-// Returns false, and leaves all spheres as they are, if no step brings them nearer.
-bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
-                 std::span<const uint8_t> fixed = {});
+// Moves the spheres of a mesh, in a unit near its extent. A sphere, as (x, y, z, r), changes by at
+// most half of its radius. Returns false, and leaves all spheres as they are, if no step brings
+// them nearer.
+bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run);
 
 }  // namespace medial

@@ -164,17 +164,4 @@ std::vector<FlatFace> flat_faces(const SphereMesh& mesh, const std::vector<int32
   return faces;
 }
 
-std::vector<uint8_t> vertices_of_flat_faces(const SphereMesh& mesh,
-                                            const std::vector<int32_t>& part) {
-  const auto plane = planes_of(mesh, inner_edges(mesh, part));
-  std::vector<int32_t> count(plane.size(), 0);
-  for (const int32_t p : plane) ++count[p];
-  std::vector<uint8_t> marks(mesh.vertices.size(), 0);
-  for (size_t t = 0; t < plane.size(); ++t) {
-    if (count[plane[t]] < 2) continue;
-    for (const int32_t v : mesh.triangles[t]) marks[v] = 1;
-  }
-  return marks;
-}
-
 }  // namespace medial

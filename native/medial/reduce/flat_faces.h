@@ -20,8 +20,4 @@ struct FlatFace {
 // near its extent, with one part per triangle.
 std::vector<FlatFace> flat_faces(const SphereMesh& mesh, const std::vector<int32_t>& part);
 
-// Marks the vertices of triangles that are flat together with a neighbour.
-std::vector<uint8_t> vertices_of_flat_faces(const SphereMesh& mesh,
-                                            const std::vector<int32_t>& part);
-
 }  // namespace medial

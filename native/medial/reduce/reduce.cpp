@@ -66,29 +66,22 @@ void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
   }
 }
 
-void hold_flat_faces(Collapsed& found) {
-  const auto flat = vertices_of_flat_faces(found.mesh, found.part);
-  for (size_t v = 0; v < flat.size(); ++v) found.held[v] |= flat[v];
-}
-
-// Collapses and fits a mesh in its unit.
+// Collapses a mesh in its unit, and fits what is left to the places. Between locks there is no fit:
+// it costs more than the collapse, and brings sheets no nearer to the solid.
 std::optional<Collapsed> reduced(const SphereMesh& mesh, const SphereComplex& complex,
                                  int32_t wanted, SheetLocks* locks, const Run& run) {
   begin_stage(run.progress, "Surface of the balls", 0, 0.2);
   const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
-  begin_stage(run.progress, "Collapse of edges", 0.2, 0.6);
+  begin_stage(run.progress, "Collapse of edges", 0.2, locks ? 1 : 0.6);
   auto found = collapse_edges(mesh, complex, places, wanted, run, locks);
-  if (!found) return {};
-  Collapsed& collapsed = *found;
+  if (!found || locks) return found;
   begin_stage(run.progress, "Fit of the spheres", 0.6, 1);
-  const auto some = thinned(places, collapsed.row.size());
-  const auto before = collapsed.mesh;
-  if (locks) hold_flat_faces(collapsed);
-  fit_spheres(collapsed.mesh, some, run, collapsed.held);
+  const auto before = found->mesh;
+  fit_spheres(found->mesh, thinned(places, found->row.size()), run);
   for (size_t v = 0; v < before.vertices.size(); ++v) {
-    const bool stays = collapsed.mesh.vertices[v] == before.vertices[v] &&
-                       collapsed.mesh.radius[v] == before.radius[v];
-    if (!stays) collapsed.row[v] = -1;
+    const bool stays =
+        found->mesh.vertices[v] == before.vertices[v] && found->mesh.radius[v] == before.radius[v];
+    if (!stays) found->row[v] = -1;
   }
   return found;
 }
