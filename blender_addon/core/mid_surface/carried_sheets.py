@@ -169,7 +169,10 @@ class _Planes:
         if curved.any():
             # Far from its facets the plane of a curved sheet is another one. A facet tells its slope
             # as a whole, so one with a corner at an edge, however far that is, tells nothing.
-            not_more = unclear | tilted | sheets.sliver | ~self._fits(sheets)
+            around = np.zeros_like(sheets.vertices)
+            np.add.at(around, sheets.triangles, (area[:, None] * sheets.normals)[:, None])
+            turned = dot(sheets.normals, around[sheets.triangles].sum(axis=1)) < 0.0
+            not_more = unclear | tilted | turned | sheets.sliver | ~self._fits(sheets)
             more = curved[sheets.part] & ~_in_facets(sheets, not_more)
             self._take(sheets, part, clear | more, area)
         known = self.vertex[self._site] == self.vertex
@@ -286,11 +289,13 @@ class _Rows:
     def __init__(self, count: int) -> None:
         self._squares = np.zeros((count, 3, 3))
         self._targets = np.zeros((count, 3))
+        self._planes = np.zeros(count, np.int64)
 
     def add(self, vertex: Longs, places: Floats, normals: Floats) -> None:
         np.add.at(self._squares, vertex, normals[:, :, None] * normals[:, None, :])
         offset = dot(normals, places)
         np.add.at(self._targets, vertex, normals * offset[:, None])
+        np.add.at(self._planes, vertex, 1)
 
     def solved(self, start: Floats) -> Floats:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
@@ -298,6 +303,6 @@ class _Rows:
         return start + shortest_solutions(self._squares, lack, _PLANE)
 
     def within_planes(self, vertex: Longs, ways: Floats) -> Floats:
-        """(k, 3) the parts of ways of vertices that do not leave their planes."""
-        squares = self._squares[vertex]
+        """(k, 3) the parts of ways that do not leave where sheets meet; within one sheet, which may be curved, all."""
+        squares = np.where(self._planes[vertex, None, None] > 1, self._squares[vertex], 0.0)
         return ways - shortest_solutions(squares, dot(squares, ways[:, None]), _PLANE)

@@ -54,10 +54,10 @@ struct SheetMesh {
 
 // Reduces a mesh sheet by sheet. Its nodes stay. Vertices of a curve, where sheets end or meet,
 // merge along the curve only, and those with radius 0 stay where one of them was; vertices inside a
-// sheet merge as in reduce(). Those that may move are fitted. Curves that are straight and sheets
-// that are flat keep no vertex that changes nothing, however many are wanted. The homotopy type
-// stays. Triangles of a sheet that lie in one plane, with radii that change linearly, are joined to
-// polygons whose boundary is one loop; a flat sheet with a hole has two of them or more.
+// sheet merge as in reduce(), without a fit. Curves that are straight and sheets that are flat keep
+// no vertex that changes nothing, however many are wanted. The homotopy type stays. Triangles of a
+// sheet that lie in one plane, with radii that change linearly, are joined to polygons whose
+// boundary is one loop; a flat sheet with a hole has two of them or more.
 //
 // Returns nothing if fewer vertices are wanted than there are nodes and bent curves: reduce() makes
 // a better solid of so few. Throws as reduce() does, and InvalidInputError for labels that do not
