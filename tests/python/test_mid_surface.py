@@ -274,6 +274,15 @@ def test_sheets_with_other_loops_than_the_axis_say_so(monkeypatch):
     assert any("the sheets have other loops" in text for text in said)
 
 
+def test_sheets_that_leave_the_solid_say_so():
+    shape = Shape(*mid_surfaces.plate(0.1).mesh)
+    high = shape.points.max(axis=0)
+    places = np.array([0.5 * high, high + 0.01, high + np.array((0.0, 0.0, 0.2))])
+    assert not middle._outside(places[:2], 0.1, shape)
+    (words,) = middle._outside(places, 0.1, shape)
+    assert words.startswith("the sheets leave the solid by up to 0.2, ")
+
+
 def test_vertices_at_one_place_stay_two_where_uniting_them_closes_a_hole():
     """An edge of a hole with three corners has no length."""
     turn = np.radians((0, 120, 240, 180, 180, 0))

@@ -27,7 +27,7 @@ from ..settings import Form, Mesh, MidSurfaceSettings, Settings, Side, Thickness
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
 from ..shape.solid_faces import SolidFaces, sharp_angle_of
-from ..shape.triangles import FEW, edges_of, euler_characteristic, unit_normals
+from ..shape.triangles import FEW, euler_characteristic, sides_of, unit_normals
 from ..small_matrices import dot, length_of
 from ..thickness.face_lengths import are_enough
 from ..united import united
@@ -185,11 +185,11 @@ def _walls(shape: Shape, solid: SolidFaces | None, settings: Settings) -> Walls:
 def _welded(sheets: CarriedSheets) -> CarriedSheets:
     """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
     step = _SAME * length_of(np.ptp(sheets.vertices, axis=0))
-    ends = edges_of(sheets.triangles).astype(np.int64)
+    ends, edge, _ = sides_of(sheets.triangles)
     along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
     short = ends[np.linalg.norm(along, axis=1) < step]
     row = united(len(sheets.vertices), short)
-    pinches = _pinches(sheets.triangles, ends, row)
+    pinches = _pinches(edge, ends, row)
     row = united(len(sheets.vertices), short[~pinches[row[short[:, 0]]]])
     triangles = row[sheets.triangles]
     kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
@@ -202,12 +202,9 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
     )
 
 
-def _pinches(triangles: Ints, ends: Longs, row: Longs) -> Flags:
+def _pinches(edge: Longs, ends: Longs, row: Longs) -> Flags:
     """(v,) the rows whose vertices, united, would lay edges on each other between which no triangle vanishes."""
     count = len(row)
-    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].astype(np.int64), axis=2)
-    keys = ends[:, 0] * count + ends[:, 1]
-    edge = np.searchsorted(keys, sides[..., 0] * count + sides[..., 1])
     lasts = row[ends[:, 0]] != row[ends[:, 1]]
     vanish = lasts[edge].sum(axis=1) == 2
     of = united(len(ends), edge[vanish][lasts[edge[vanish]]].reshape(-1, 2))
@@ -291,7 +288,12 @@ def _with_thickness(
         thick_faces(shape, made, lengths) if keep_thick else None,
         shape,
         found.chosen,
-        (*found.warnings, *left_out, *_torn(triangles, found, thin)),
+        (
+            *found.warnings,
+            *left_out,
+            *_torn(triangles, found, thin),
+            *_outside(made.vertices, float(thickness.max()), shape),
+        ),
         time.perf_counter() - start,
     )
 
@@ -359,6 +361,22 @@ def _torn(triangles: Ints, found: Computation, thin: ThinSheets) -> tuple[str, .
     return (
         f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: sheets that should meet do not; more "
         "samples may help",
+    )
+
+
+def _outside(vertices: Floats, thickest: float, shape: Shape) -> tuple[str, ...]:
+    """A sentence where a vertex is outside the solid, farther than the thickest wall round it reaches."""
+    faces = shape.points, shape.triangles
+    with own_errors() as module:
+        away = np.asarray(module.surface_distances(np.ascontiguousarray(vertices), *faces))
+        far = np.flatnonzero(away > 0.5 * thickest)
+        winding = np.asarray(module.winding_number(np.ascontiguousarray(vertices[far]), *faces))
+    out = far[winding < 0.5]
+    if not len(out):
+        return ()
+    place = ", ".join(f"{value:.3g}" for value in vertices[out[away[out].argmax()]])
+    return (
+        f"the sheets leave the solid by up to {away[out].max():.2g}, most of all at ({place}); more samples may help",
     )
 
 
