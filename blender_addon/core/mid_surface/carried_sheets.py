@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
-from ..shape.triangles import edges_of
+from ..shape.triangles import edges_of, unit_normals
 from ..small_matrices import dot, shortest_solutions
 from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
@@ -97,7 +97,7 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     """
     count = len(sheets.vertices)
     at_rim = np.zeros(count, bool)
-    at_rim[single_edges(sheets.triangles, count)[0]] = True
+    at_rim[single_edges(sheets.triangles)[0]] = True
     rim = _in_facets(sheets, at_rim[sheets.triangles].any(axis=1))
     area = np.where(rim | unclear, 0.0, area)
     total, sums = np.zeros(count), np.zeros((count, 3))
@@ -112,12 +112,6 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     flat = (whole > 0.0) & (length >= (1.0 - _FLAT) * whole)
     tilted = dot(sheets.normals, around) < (1.0 - _FLAT) * length
     return _in_facets(sheets, rim & flat & tilted)
-
-
-def _doubled_areas(sheets: ThinSheets) -> Floats:
-    """(t,) twice the area of each triangle."""
-    a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
 def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
@@ -159,7 +153,7 @@ class _Planes:
         pairs, of_corner = np.unique(key, return_inverse=True)
         self._of_corner = of_corner.reshape(key.shape)
         part, self.vertex = np.divmod(pairs, count)
-        area = _doubled_areas(sheets)
+        area = unit_normals(sheets.vertices[sheets.triangles])[1]
         unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
         tilted = _tilted(sheets, unclear, area)
         clear = _clear(sheets, unclear) & ~tilted

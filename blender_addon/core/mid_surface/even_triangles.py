@@ -8,6 +8,7 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..machine.progress import Progress
+from ..shape.triangles import sides_of
 
 _LONGEST = 4.0 / 3.0  # lengths: the remeshing moves no longer edge; derived: kLong
 
@@ -85,9 +86,7 @@ def divided(points: Floats, triangles: Ints, longest: float) -> tuple[Floats, In
     while True:
         corners = points[triangles]
         lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-        ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
-        edges, edge = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
-        edge = edge.reshape(triangles.shape)
+        edges, edge, _ = sides_of(triangles)
         cut = _cut_edges(edge, lengths, longest, len(edges))
         if not cut.any():
             return points, triangles, of

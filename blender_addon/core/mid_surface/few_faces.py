@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..machine.progress import Progress
+from ..shape.triangles import sides_of
 from ..united import united
 from .carried_sheets import CarriedSheets
 from .crossed_borders import crossings
@@ -115,18 +116,10 @@ def _radii(sheets: CarriedSheets) -> Floats:
 
 def _nodes(sheets: CarriedSheets, label: Ints) -> Ints:
     """The vertices where borders of triangles with one label meet."""
-    triangles = sheets.triangles.astype(np.int64)
-    ends = np.sort(
-        np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1
-    )
-    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
-    edge = edge.reshape(-1)
-    part = np.repeat(label, 3)
-    low, high = np.full(len(uses), part.max() + 1), np.full(len(uses), -1)
-    np.minimum.at(low, edge, part)
-    np.maximum.at(high, edge, part)
-    first = np.zeros(len(uses), np.int64)
-    first[edge] = np.arange(len(edge))
-    border = ends[first[(uses != 2) | (low != high)]]
+    ends, edge, uses = sides_of(sheets.triangles)
+    low, high = np.full(len(uses), label.max() + 1), np.full(len(uses), -1)
+    np.minimum.at(low, edge, label[:, None])
+    np.maximum.at(high, edge, label[:, None])
+    border = ends[(uses != 2) | (low != high)]
     degree = np.bincount(border.ravel(), minlength=len(sheets.vertices))
     return np.flatnonzero((degree != 0) & (degree != 2)).astype(np.int32)

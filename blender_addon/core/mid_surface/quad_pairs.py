@@ -8,7 +8,7 @@ from collections import deque
 import numpy as np
 
 from ..arrays import Floats, Ints, Longs
-from ..shape.triangles import unit_normals
+from ..shape.triangles import sides_of, unit_normals
 from ..small_matrices import dot
 
 LEAST_SINE = 0.5  # at the corners: angles of 30 to 150 degrees; chosen: midsurface
@@ -44,11 +44,8 @@ def _candidates(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Lon
 
     Those that make a bad quadrilateral are left out.
     """
-    ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
-    _, edge, uses = np.unique(
-        np.sort(ends, axis=1), axis=0, return_inverse=True, return_counts=True
-    )
-    edge = edge.reshape(-1)
+    _, edge, uses = sides_of(triangles)
+    edge = edge.ravel()
     sides = np.flatnonzero(uses[edge] == 2)
     sides = sides[np.argsort(edge[sides], kind="stable")].reshape(-1, 2)
     (a, b), (i, j) = (sides // 3).T, (sides % 3).T
@@ -62,7 +59,7 @@ def _candidates(points: Floats, triangles: Ints, part: Ints) -> tuple[Longs, Lon
     )
     normals, _ = unit_normals(points[triangles])
     value = least_sines(points[quads])
-    good = (part[a] == part[b]) & (ends[sides[:, 0], 0] == ends[sides[:, 1], 1])
+    good = (part[a] == part[b]) & (triangles[a, i] == triangles[b, (j + 1) % 3])
     good &= (value >= LEAST_SINE) & (dot(normals[a], normals[b]) >= _FLAT)
     return np.column_stack((a, b))[good].astype(np.int64), quads[good], value[good]
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
+from ..shape.triangles import sides_of
 from ..small_matrices import dot
 from .sheet_chains import Chain, chains_of, nearest_along, runs_of, without_ways_back
 from .sheet_faces import ROUNDING
@@ -148,19 +149,16 @@ def rims(
     return Rims(edges, chains, kind, places, ahead)
 
 
-def single_edges(triangles: Ints, count: int) -> tuple[Longs, Longs, Longs]:
-    """(k, 2) the edges of one triangle, (k,) that triangle and (k,) its side, given the number of vertices."""
-    edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int64)
-    sides = np.sort(edges.reshape(-1, 2), axis=1)
-    _, edge, uses = np.unique(
-        sides[:, 0] * count + sides[:, 1], return_inverse=True, return_counts=True
-    )
-    triangle, side = np.divmod(np.flatnonzero(uses[edge.reshape(-1)] == 1), 3)
-    return edges[triangle, side], triangle, side
+def single_edges(triangles: Ints) -> tuple[Longs, Longs, Longs]:
+    """(k, 2) the edges of one triangle, as it turns, (k,) that triangle and (k,) its side."""
+    _, edge, uses = sides_of(triangles)
+    triangle, side = np.nonzero(uses[edge] == 1)
+    ends = triangles[triangle, side], triangles[triangle, (side + 1) % 3]
+    return np.column_stack(ends).astype(np.int64), triangle, side
 
 
 def _edges(sheets: ThinSheets, straight: Floats, normals: Floats, radii: Floats) -> RimEdges:
-    ends, triangle, side = single_edges(sheets.triangles, len(straight))
+    ends, triangle, side = single_edges(sheets.triangles)
     way = straight[ends[:, 1]] - straight[ends[:, 0]]
     length = np.linalg.norm(way, axis=1)
     out = np.cross(way, normals[triangle, side] + normals[triangle, (side + 1) % 3])

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats, Ints, Longs
 
 # At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
@@ -33,6 +33,18 @@ def edges_of(triangles: Ints) -> Ints:
     count = int(pairs.max(initial=0)) + 1
     low, high = np.divmod(np.unique(pairs[:, 0] * count + pairs[:, 1]), count)
     return np.column_stack((low, high)).astype(triangles.dtype)
+
+
+def sides_of(faces: Ints | Longs) -> tuple[Longs, Longs, Longs]:
+    """Return the edges of faces, (e, 2), the edge from each corner to the next, and the sides of each edge, (e,)."""
+    start = faces.astype(np.int64)
+    end, count = np.roll(start, -1, axis=1), int(start.max(initial=0)) + 1
+    keys, edge, uses = np.unique(
+        np.minimum(start, end) * count + np.maximum(start, end),
+        return_inverse=True,
+        return_counts=True,
+    )
+    return np.column_stack(np.divmod(keys, count)), edge.reshape(faces.shape), uses
 
 
 def euler_characteristic(triangles: Ints) -> int:

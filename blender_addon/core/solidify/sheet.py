@@ -11,6 +11,7 @@ from ..arrays import Flags, Floats, Ints, Longs
 from ..errors import InvalidInputError
 from ..shape.outward_faces import outward_shape, reading_warnings
 from ..shape.shape import Shape
+from ..shape.triangles import sides_of
 from ..small_matrices import dot
 from ..thickness.face_lengths import first_rows
 
@@ -81,10 +82,8 @@ def _faces(shape: Shape) -> Ints:
 def _disagreeing(faces: Ints) -> tuple[int, int]:
     """The number of edges with more than two faces, and of the others that two faces pass the same way."""
     start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1)
-    count = int(faces.max()) + 1
-    ends = np.minimum(start, end) * count + np.maximum(start, end)
-    _, uses = np.unique(ends, return_counts=True)
-    _, ways = np.unique(start * count + end, return_counts=True)
+    _, _, uses = sides_of(faces)
+    _, ways = np.unique(start * (int(faces.max()) + 1) + end, return_counts=True)
     many = int((uses > 2).sum())
     return many, 0 if many else int((ways > 1).sum())
 

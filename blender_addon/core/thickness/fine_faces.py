@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints, Longs
+from ..shape.triangles import edges_of, sides_of
 from ..small_matrices import dot
 
 _Columns = NDArray[Any]  # (3, n), turned until the edge that differs from the others comes first
@@ -39,8 +40,7 @@ class FineFaces:
 
     def edges(self) -> Ints:
         """(e, 2) the ends of all edges."""
-        keys = np.unique(_keys(self.triangles, len(self.points)))
-        return np.column_stack(np.divmod(keys, len(self.points))).astype(np.int32)
+        return edges_of(self.triangles)
 
 
 def coarse_faces(
@@ -62,7 +62,8 @@ def coarse_faces(
     low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1)
     known = low * count + high
     order = np.argsort(known)
-    keys = _keys(triangles, count)
+    ends, edge, _ = sides_of(triangles)
+    keys = ends[edge, 0] * count + ends[edge, 1]
     kinds = np.zeros(keys.shape, np.int8)
     if len(order):
         at = np.minimum(np.searchsorted(known[order], keys), len(order) - 1)
@@ -77,13 +78,6 @@ def cut_faces(found: FineFaces, longest: float, some: Flags | None = None) -> Fi
     return found
 
 
-def _keys(triangles: Ints, count: int) -> Longs:
-    """(f, 3) a number for the edge from each corner to the next."""
-    tails = triangles.astype(np.int64)
-    heads = np.roll(tails, -1, axis=1)
-    return np.minimum(tails, heads) * count + np.maximum(tails, heads)
-
-
 def _halved(found: FineFaces, longest: float, some: Flags | None) -> FineFaces | None:
     points, triangles = found.points, found.triangles
     ways = points[np.roll(triangles, -1, axis=1)] - points[triangles]
@@ -93,12 +87,11 @@ def _halved(found: FineFaces, longest: float, some: Flags | None) -> FineFaces |
         too_long &= some[found.faces][:, None]
     if not too_long.any():
         return None
-    keys, of_sides = np.unique(_keys(triangles, len(points)), return_inverse=True)
-    of_sides = of_sides.reshape(-1, 3)
-    long = np.zeros(len(keys), bool)
+    edges, of_sides, _ = sides_of(triangles)
+    long = np.zeros(len(edges), bool)
     long[of_sides[too_long]] = True
     number = np.where(long, len(points) + np.cumsum(long) - 1, -1)
-    ends = np.divmod(keys[long], len(points))
+    ends = edges[long].T
     middles = (points[ends[0]] + points[ends[1]]) / 2.0
     pieces = _pieces(triangles, found.kinds, number[of_sides], lengths)
     rows = np.concatenate([row for row, _, _ in pieces])
