@@ -96,7 +96,6 @@ class Collapser {
   static constexpr uint32_t kGone = UINT32_MAX;
   bool gone(int32_t v) const { return version_[v] == kGone; }
 
-
   // Says which edges may collapse now.
   struct Allowed {
     bool turns = false;      // slabs may turn over
