@@ -171,7 +171,7 @@ int collapse_some(SheetComplex& mesh, Numbers& random) {
   return done;
 }
 
-// Calls change(mesh, random) for many meshes, every second of them with wires if so wanted.
+// Calls change(mesh, wires, random) for many meshes, every second of them with wires if so wanted.
 template <typename Change>
 void expect_kept(uint64_t seeds, bool with_wires, const Change& change) {
   for (uint64_t seed = 0; seed < seeds; ++seed) {
@@ -180,7 +180,7 @@ void expect_kept(uint64_t seeds, bool with_wires, const Change& change) {
     if (with_wires && seed % 2) squares.add_wires(random);
     SheetComplex mesh = squares.complex();
     const auto before = betti_numbers(squares.triangles, squares.wires);
-    change(mesh, random);
+    change(mesh, squares.wires, random);
     expect_strata(mesh, squares.wires);
     ASSERT_EQ(betti_numbers(left_of(mesh), squares.wires), before) << seed;
   }
@@ -188,8 +188,11 @@ void expect_kept(uint64_t seeds, bool with_wires, const Change& change) {
 
 TEST(SheetComplex, CollapsesKeepBettiNumbersAndStrata) {
   int64_t collapses = 0;
-  expect_kept(2000, true, [&](SheetComplex& mesh, Numbers& random) {
-    for (int pass = 0; pass < 6; ++pass) collapses += collapse_some(mesh, random);
+  expect_kept(2000, true, [&](SheetComplex& mesh, const auto& wires, Numbers& random) {
+    for (int pass = 0; pass < 6; ++pass) {
+      collapses += collapse_some(mesh, random);
+      expect_strata(mesh, wires);
+    }
   });
   EXPECT_GT(collapses, 20'000);
 }
@@ -197,7 +200,7 @@ TEST(SheetComplex, CollapsesKeepBettiNumbersAndStrata) {
 // Vertices of one place may have an edge between them, or a slit of no width.
 TEST(SheetComplex, VerticesOfOnePlaceUniteAndKeepBettiNumbersAndStrata) {
   int with_edge = 0, without = 0;
-  expect_kept(2000, true, [&](SheetComplex& mesh, Numbers& random) {
+  expect_kept(2000, true, [&](SheetComplex& mesh, const auto&, Numbers& random) {
     for (int i = 0; i < 200; ++i) {
       const int32_t from = random.below(mesh.vertices()), to = random.below(mesh.vertices());
       if (from == to || !mesh.has_triangles(from) || !mesh.has_triangles(to)) continue;
@@ -212,7 +215,7 @@ TEST(SheetComplex, VerticesOfOnePlaceUniteAndKeepBettiNumbersAndStrata) {
 
 TEST(SheetComplex, FlipsAndSplitsKeepBettiNumbersAndStrata) {
   int64_t flips = 0;
-  expect_kept(500, false, [&](SheetComplex& mesh, Numbers& random) {
+  expect_kept(500, false, [&](SheetComplex& mesh, const auto&, Numbers& random) {
     std::vector<int32_t> halves;
     for (int i = 0; i < 30; ++i) {
       const auto edges = mesh.edges();

@@ -5,6 +5,7 @@ import numpy as np
 from medial_axis.core.mid_surface.carried_sheets import carried
 from medial_axis.core.mid_surface.sheet_walls import Walls
 from medial_axis.core.mid_surface.thin_sheets import ThinSheets
+from medial_axis.core.shape.triangles import unit_normals
 from support.thick_meshes import pipe
 
 AROUND, ROWS, WALL = 24, 12, 0.1
@@ -19,9 +20,7 @@ def sheet():
     a, b = AROUND * row + place, AROUND * row + (place + 1) % AROUND
     squares = np.column_stack((a, b, b + AROUND, a, b + AROUND, a + AROUND))
     triangles = squares.reshape(-1, 3).astype(np.int32)
-    corners = vertices[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    normals, _ = unit_normals(vertices[triangles])
     facet = np.arange(len(triangles)) // 2
     facing = np.repeat((row >= 3) & (row < ROWS - 4), 2)
     return vertices, triangles, normals, facet, facing

@@ -162,7 +162,8 @@ class _Planes:
         curved = are_curved(vectors, sheets.part, sheets.parts)
         if curved.any():
             # Far from its facets the plane of a curved sheet is another one. A facet tells its slope
-            # as a whole, so one with a corner at an edge, however far that is, tells nothing.
+            # as a whole, so one with a corner at an edge, however far that is, tells nothing. Nor
+            # does one that looks away from those around it, which is turned over.
             around = np.zeros_like(sheets.vertices)
             np.add.at(around, sheets.triangles, (area[:, None] * sheets.normals)[:, None])
             turned = dot(sheets.normals, around[sheets.triangles].sum(axis=1)) < 0.0
@@ -297,6 +298,6 @@ class _Rows:
         return start + shortest_solutions(self._squares, lack, _PLANE)
 
     def within_planes(self, vertex: Longs, ways: Floats) -> Floats:
-        """(k, 3) the parts of ways that do not leave where sheets meet; within one sheet, which may be curved, all."""
+        """(k, 3) the parts of ways along which vertices of several planes stay in these; all of the other ways."""
         squares = np.where(self._planes[vertex, None, None] > 1, self._squares[vertex], 0.0)
         return ways - shortest_solutions(squares, dot(squares, ways[:, None]), _PLANE)

@@ -27,23 +27,24 @@ def unit_normals(corners: Floats) -> tuple[Floats, Floats]:
     return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths
 
 
+def side_keys(faces: Ints | Longs, count: int) -> Longs:
+    """Return a number for the edge from each corner of faces to the next, given the number of vertices."""
+    start = faces.astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    return np.minimum(start, end) * count + np.maximum(start, end)
+
+
 def edges_of(triangles: Ints) -> Ints:
     """Return the edges of triangles, each once, (e, 2)."""
-    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
-    count = int(pairs.max(initial=0)) + 1
-    low, high = np.divmod(np.unique(pairs[:, 0] * count + pairs[:, 1]), count)
-    return np.column_stack((low, high)).astype(triangles.dtype)
+    count = int(triangles.max(initial=0)) + 1
+    keys = np.unique(side_keys(triangles, count))
+    return np.column_stack(np.divmod(keys, count)).astype(triangles.dtype)
 
 
-def sides_of(faces: Ints | Longs) -> tuple[Longs, Longs, Longs]:
+def sides_of(faces: Ints) -> tuple[Longs, Longs, Longs]:
     """Return the edges of faces, (e, 2), the edge from each corner to the next, and the sides of each edge, (e,)."""
-    start = faces.astype(np.int64)
-    end, count = np.roll(start, -1, axis=1), int(start.max(initial=0)) + 1
-    keys, edge, uses = np.unique(
-        np.minimum(start, end) * count + np.maximum(start, end),
-        return_inverse=True,
-        return_counts=True,
-    )
+    count = int(faces.max(initial=0)) + 1
+    keys, edge, uses = np.unique(side_keys(faces, count), return_inverse=True, return_counts=True)
     return np.column_stack(np.divmod(keys, count)), edge.reshape(faces.shape), uses
 
 

@@ -11,7 +11,7 @@ from ..arrays import Flags, Floats, Ints, Longs
 from ..errors import InvalidInputError
 from ..shape.outward_faces import outward_shape, reading_warnings
 from ..shape.shape import Shape
-from ..shape.triangles import sides_of
+from ..shape.triangles import side_keys
 from ..small_matrices import dot
 from ..thickness.face_lengths import first_rows
 
@@ -82,8 +82,9 @@ def _faces(shape: Shape) -> Ints:
 def _disagreeing(faces: Ints) -> tuple[int, int]:
     """The number of edges with more than two faces, and of the others that two faces pass the same way."""
     start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1)
-    _, _, uses = sides_of(faces)
-    _, ways = np.unique(start * (int(faces.max()) + 1) + end, return_counts=True)
+    count = int(faces.max()) + 1
+    _, uses = np.unique(side_keys(faces, count), return_counts=True)
+    _, ways = np.unique(start * count + end, return_counts=True)
     many = int((uses > 2).sum())
     return many, 0 if many else int((ways > 1).sum())
 

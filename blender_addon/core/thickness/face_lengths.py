@@ -23,7 +23,7 @@ from ..settings import Between, Edges, Noise, SamplingMode, Settings, SidesFrom,
 from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.solid_faces import sharp_angle_of
-from ..shape.triangles import sides_of, unit_normals
+from ..shape.triangles import side_keys, unit_normals
 from .bounded_lengths import MeasuredSurface
 from .close_walls import rounding_of
 from .fine_faces import FineFaces, coarse_faces, cut_faces
@@ -341,7 +341,7 @@ def _without(known: Flags, group: Longs) -> Flags:
 
 def _joined(fine: FineFaces, across: int) -> Longs:
     """(f,) the lowest row of the triangles that are joined to each across edges of kinds up to one."""
-    keys = sides_of(fine.triangles)[1].ravel()
+    keys = side_keys(fine.triangles, len(fine.points)).ravel()
     open_to = np.flatnonzero((fine.kinds <= across).ravel())
     order = open_to[np.argsort(keys[open_to], kind="stable")]
     same = keys[order[:-1]] == keys[order[1:]]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints, Longs
-from ..shape.triangles import edges_of, sides_of
+from ..shape.triangles import edges_of, side_keys, sides_of
 from ..small_matrices import dot
 
 _Columns = NDArray[Any]  # (3, n), turned until the edge that differs from the others comes first
@@ -62,8 +62,7 @@ def coarse_faces(
     low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1)
     known = low * count + high
     order = np.argsort(known)
-    ends, edge, _ = sides_of(triangles)
-    keys = ends[edge, 0] * count + ends[edge, 1]
+    keys = side_keys(triangles, count)
     kinds = np.zeros(keys.shape, np.int8)
     if len(order):
         at = np.minimum(np.searchsorted(known[order], keys), len(order) - 1)
