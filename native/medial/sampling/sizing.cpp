@@ -44,9 +44,7 @@ SizingField::SizingField(std::span<const Vec3> sites, std::span<const double> sp
 }
 
 double SizingField::operator()(const Vec3& place) const {
-  thread_local std::vector<Neighbour> found;
-  sites_.find(place, 1, found);
-  return spacing_[found.front().id];
+  return spacing_[sites_.nearest(place).id];
 }
 
 }  // namespace medial
