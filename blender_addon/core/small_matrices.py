@@ -12,6 +12,7 @@ import math
 import sys
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Floats
 
@@ -24,6 +25,17 @@ def dot(a: Floats, b: Floats) -> Floats:
         x, y, z = (a[..., k] * b[..., k] for k in range(3))
         return np.asarray(x + y + z)
     return np.asarray((a * b).sum(axis=-1))
+
+
+def summed(rows: NDArray[np.integer], values: Floats, count: int) -> Floats:
+    """Return the sums, (count, ...), of the values, (*rows.shape, ...), of each row, added in their order.
+
+    NumPy before 1.25 takes fifteen times as long for `add.at`, which does the same.
+    """
+    tail = values.shape[rows.ndim :]
+    columns = np.broadcast_to(values, (*rows.shape, *tail)).reshape(rows.size, math.prod(tail)).T
+    sums = [np.bincount(rows.ravel(), column, count) for column in columns]
+    return np.asarray(np.stack(sums, axis=-1).reshape(count, *tail), np.float64)
 
 
 def length_of(vector: Floats) -> float:

@@ -1898,6 +1898,7 @@ def reduce_sheets(
     nodes: NDArray[np.int32],
     wanted: int,
     *,
+    shortest: float = 0.0,
     progress: Progress | None = None,
     threads: int = 0,
 ) -> (
@@ -1933,6 +1934,8 @@ def reduce_sheets(
         Rows of vertices.
     wanted : int
         Number of spheres.
+    shortest : float
+        Borders of sheets have no shorter edges, if that can be.
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.

@@ -40,10 +40,10 @@ py::tuple reduced(const py::object& vertices, const py::object& radius, const py
 
 py::object sheets(const py::object& vertices, const py::object& radius, const py::object& triangles,
                   const py::object& edges, const py::object& part, const py::object& nodes,
-                  int64_t wanted, Progress* progress, int threads) {
+                  int64_t wanted, double shortest, Progress* progress, int threads) {
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const SheetLabels labels{column_of<int32_t>(part, "part", "(t,) int32"),
-                           column_of<int32_t>(nodes, "nodes", "(n,) int32")};
+                           column_of<int32_t>(nodes, "nodes", "(n,) int32"), shortest};
   const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
   const ReduceOptions options{most, thread_argument(threads)};
   std::optional<SheetMesh> found;
@@ -95,7 +95,8 @@ void bind_reduce(py::module_& m) {
         py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("reduce_sheets", &sheets, docs::reduce_sheets, py::arg("vertices"), py::arg("radius"),
         py::arg("triangles"), py::arg("edges"), py::arg("part"), py::arg("nodes"),
-        py::arg("wanted"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
+        py::arg("wanted"), py::kw_only(), py::arg("shortest") = 0.0, py::arg("progress") = nullptr,
+        py::arg("threads") = 0);
   m.def("solid_distances", &distances, docs::solid_distances, py::arg("queries"),
         py::arg("vertices"), py::arg("radius"), py::arg("triangles"), py::arg("edges"),
         py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);

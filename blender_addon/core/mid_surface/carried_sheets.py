@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..shape.triangles import edges_of, unit_normals
-from ..small_matrices import dot, shortest_solutions
+from ..small_matrices import dot, shortest_solutions, summed
 from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
 from .sheet_walls import TOUCHES, Walls, reflex_distances
@@ -100,10 +100,9 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     at_rim[single_edges(sheets.triangles)[0]] = True
     rim = _in_facets(sheets, at_rim[sheets.triangles].any(axis=1))
     area = np.where(rim | unclear, 0.0, area)
-    total, sums = np.zeros(count), np.zeros((count, 3))
-    np.add.at(total, sheets.triangles, area[:, None])
+    total = summed(sheets.triangles, area[:, None], count)
     vectors = area[:, None] * sheets.normals
-    np.add.at(sums, sheets.triangles, vectors[:, None, :])
+    sums = summed(sheets.triangles, vectors[:, None], count)
     around, whole = sums[sheets.triangles].sum(axis=1), total[sheets.triangles].sum(axis=1)
     lone = whole == 0.0
     of_parts = _sums_of_parts(vectors, sheets.part, sheets.parts)
@@ -122,8 +121,7 @@ def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
 
 def _sums_of_parts(vectors: Floats, part: Ints, parts: int) -> tuple[Floats, Floats]:
     """(parts, 3) the sums of vectors, and (parts,) those of their lengths."""
-    total = np.zeros((parts, 3))
-    np.add.at(total, part, vectors)
+    total = summed(part, vectors, parts)
     return total, np.asarray(np.bincount(part, np.linalg.norm(vectors, axis=1), parts), np.float64)
 
 
@@ -131,9 +129,7 @@ def _are_uneven(sheets: ThinSheets, clear: Flags, area: Floats) -> Flags:
     """(parts,) the sheets over whose clear triangles the thickness does not change evenly."""
     weight = np.where(clear, area, 0.0)
     whole = np.maximum(np.bincount(sheets.part, weight, sheets.parts), np.finfo(float).tiny)
-    mean = np.zeros((sheets.parts, 3))
-    np.add.at(mean, sheets.part, weight[:, None] * sheets.slopes)
-    mean /= whole[:, None]
+    mean = summed(sheets.part, weight[:, None] * sheets.slopes, sheets.parts) / whole[:, None]
     apart = np.linalg.norm(sheets.slopes - mean[sheets.part], axis=1)
     radius = sheets.radius[sheets.triangles].mean(axis=1)
     change = np.bincount(sheets.part, weight * apart, sheets.parts) * np.sqrt(whole)
@@ -164,8 +160,7 @@ class _Planes:
             # Far from its facets the plane of a curved sheet is another one. A facet tells its slope
             # as a whole, so one with a corner at an edge, however far that is, tells nothing. Nor
             # does one that looks away from those around it, which is turned over.
-            around = np.zeros_like(sheets.vertices)
-            np.add.at(around, sheets.triangles, (area[:, None] * sheets.normals)[:, None])
+            around = summed(sheets.triangles, (area[:, None] * sheets.normals)[:, None], count)
             turned = dot(sheets.normals, around[sheets.triangles].sum(axis=1)) < 0.0
             not_more = unclear | tilted | turned | sheets.sliver | ~self._fits(sheets)
             more = curved[sheets.part] & ~_in_facets(sheets, not_more)
@@ -191,11 +186,9 @@ class _Planes:
 
     def _middles(self, sheets: ThinSheets) -> Floats:
         """(p, 3) the mean of the middles of the triangles around each pair of sheet and vertex."""
-        count, sums = np.zeros(len(self.vertex)), np.zeros((len(self.vertex), 3))
-        np.add.at(count, self._of_corner, 1.0)
         middles = sheets.vertices[sheets.triangles].mean(axis=1)
-        np.add.at(sums, self._of_corner, middles[:, None])
-        return sums / count[:, None]
+        sums = summed(self._of_corner, middles[:, None], len(self.vertex))
+        return sums / np.bincount(self._of_corner.ravel())[:, None]
 
     def _take(self, sheets: ThinSheets, part: Longs, clear: Flags, area: Floats) -> None:
         known, normals, slopes = self._means(sheets, np.where(clear, area, 0.0))
@@ -240,13 +233,12 @@ class _Planes:
 
     def _means(self, sheets: ThinSheets, weight: Floats) -> tuple[Flags, Floats, Floats]:
         """Whether each pair of sheet and vertex has facets between faces, and their mean normal and slope."""
-        total = np.zeros(len(self.vertex))
-        sums = np.zeros((2, len(self.vertex), 3))
-        for corner in range(3):
-            rows = self._of_corner[:, corner]
-            np.add.at(total, rows, weight)
-            for each, values in zip(sums, (sheets.normals, sheets.slopes), strict=True):
-                np.add.at(each, rows, weight[:, None] * values)
+        count, rows = len(self.vertex), self._of_corner.T
+        total = summed(rows, weight, count)
+        sums = [
+            summed(rows, (weight[:, None] * values)[None], count)
+            for values in (sheets.normals, sheets.slopes)
+        ]
         known = total > 0.0
         length = np.linalg.norm(sums[0], axis=1)
         known &= length > 0.0
@@ -287,17 +279,23 @@ class _Rows:
         self._planes = np.zeros(count, np.int64)
 
     def add(self, vertex: Longs, places: Floats, normals: Floats) -> None:
-        np.add.at(self._squares, vertex, normals[:, :, None] * normals[:, None, :])
-        offset = dot(normals, places)
-        np.add.at(self._targets, vertex, normals * offset[:, None])
-        np.add.at(self._planes, vertex, 1)
+        count = len(self._planes)
+        self._squares += summed(vertex, normals[:, :, None] * normals[:, None, :], count)
+        self._targets += summed(vertex, normals * dot(normals, places)[:, None], count)
+        self._planes += np.bincount(vertex, minlength=count)
 
     def solved(self, start: Floats) -> Floats:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
-        lack = self._targets - dot(self._squares, start[:, None])
-        return start + shortest_solutions(self._squares, lack, _PLANE)
+        ways = self._targets - dot(
+            self._squares, start[:, None]
+        )  # to the plane, where there is one
+        some = self._planes > 1
+        ways[some] = shortest_solutions(self._squares[some], ways[some], _PLANE)
+        return start + ways
 
     def within_planes(self, vertex: Longs, ways: Floats) -> Floats:
         """(k, 3) the parts of ways along which vertices of several planes stay in these; all of the other ways."""
-        squares = np.where(self._planes[vertex, None, None] > 1, self._squares[vertex], 0.0)
-        return ways - shortest_solutions(squares, dot(squares, ways[:, None]), _PLANE)
+        some = self._planes[vertex] > 1
+        squares, ways = self._squares[vertex[some]], ways.copy()
+        ways[some] -= shortest_solutions(squares, dot(squares, ways[some][:, None]), _PLANE)
+        return ways

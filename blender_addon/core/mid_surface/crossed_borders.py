@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..shape.triangles import unit_normals
-from ..small_matrices import dot, length_of
+from ..small_matrices import dot, length_of, summed
 from .sheet_faces import TRIFLE, SheetFaces
 
 _NOTHING = 1e-9  # of all area: so small a polygon has none; derived: rounding
@@ -27,8 +27,7 @@ def crossings(faces: SheetFaces) -> tuple[Floats, Ints]:
     """
     normals, doubled = unit_normals(faces.vertices[faces.triangles])
     overlap = _overlap(faces, normals, doubled)
-    across = np.zeros((len(faces.part), 3))
-    np.add.at(across, faces.of, np.abs(normals) * doubled[:, None])
+    across = summed(faces.of, np.abs(normals) * doubled[:, None], len(faces.part))
     step = _TOUCHES * length_of(np.ptp(faces.vertices, axis=0))
     places, part = [np.zeros((0, 3))], [np.zeros(0, np.int32)]
     for face in np.flatnonzero(np.diff(faces.offsets) > 3):
@@ -45,8 +44,7 @@ def crossings(faces: SheetFaces) -> tuple[Floats, Ints]:
 
 def _overlap(faces: SheetFaces, normals: Floats, doubled: Floats) -> Flags:
     """(f,) the polygons whose triangles overlap: they have more area than they enclose."""
-    enclosed = np.zeros((len(faces.part), 3))
-    np.add.at(enclosed, faces.of, normals * doubled[:, None])
+    enclosed = summed(faces.of, normals * doubled[:, None], len(faces.part))
     whole = np.bincount(faces.of, doubled, len(faces.part))
     beyond = whole - np.linalg.norm(enclosed, axis=1)
     return np.asarray((beyond > TRIFLE * whole) & (whole > _NOTHING * whole.sum()))

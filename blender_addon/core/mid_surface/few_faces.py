@@ -10,30 +10,34 @@ import numpy as np
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..machine.progress import Progress
-from ..shape.triangles import sides_of
+from ..shape.triangles import sides_of, unit_normals
 from ..united import united
 from .carried_sheets import CarriedSheets
 from .crossed_borders import crossings
-from .sheet_faces import TRIFLE, SheetFaces
+from .sheet_faces import SheetFaces
 
+_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average; chosen: unseen
 _WIDENED = 5  # so many times at most triangles are kept farther around a border that crosses itself
 
 
-def few_faces(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> SheetFaces:
+def few_faces(
+    sheets: CarriedSheets, wanted: int, progress: Progress | None, shortest: float = 0.0
+) -> SheetFaces:
     """The sheets with few faces, but around places where the border of one would cross itself their triangles.
 
+    Their borders have no edges shorter than `shortest`, where that can be.
     The other faces share edges with these. Groups of sheets in which this is not enough keep all of their triangles.
     """
     label = sheets.part.copy()
     own = label.max() + 1 + np.arange(len(label), dtype=np.int32)
-    faces = _reduced(sheets, label, wanted, progress)
+    faces = _reduced(sheets, label, wanted, progress, shortest)
     for widened in range(_WIDENED):
         places, part = crossings(faces)
         if not len(places):
             return faces
         near = _near(sheets, places, part, 2.0**widened)
         label[near] = own[near]
-        faces = _reduced(sheets, label, wanted, progress)
+        faces = _reduced(sheets, label, wanted, progress, shortest)
     return _without_crossings(faces, sheets)
 
 
@@ -77,7 +81,7 @@ def _groups(sheets: CarriedSheets) -> Longs:
 
 
 def _reduced(
-    sheets: CarriedSheets, label: Ints, wanted: int, progress: Progress | None
+    sheets: CarriedSheets, label: Ints, wanted: int, progress: Progress | None, shortest: float
 ) -> SheetFaces:
     """The sheets with so many vertices, or all where that cannot be; triangles of different labels are not joined."""
     with own_errors() as module:
@@ -91,6 +95,7 @@ def _reduced(
                 np.ascontiguousarray(label),
                 _nodes(sheets, label),
                 wanted,
+                shortest=shortest,
                 progress=progress and progress.part(),
             )
 
@@ -102,13 +107,22 @@ def _reduced(
     return SheetFaces(places, offsets, corners, sheet[part])
 
 
+def are_uneven(sheets: CarriedSheets) -> Flags:
+    """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
+    parts = int(sheets.part.max()) + 1
+    area = unit_normals(sheets.vertices[sheets.triangles])[1]
+    thickness = sheets.at_corners.mean(axis=1)
+    volume = np.bincount(sheets.part, area * thickness, parts)
+    whole = np.bincount(sheets.part, area, parts)
+    mean = volume / np.where(whole > 0.0, whole, 1.0)
+    apart = np.abs(thickness - mean[sheets.part])
+    return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
+
+
 def _radii(sheets: CarriedSheets) -> Floats:
-    """(v,) the radii by which the sheets are simplified: one for all where each sheet has one thickness."""
-    least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
-    np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
-    np.maximum.at(most, sheets.part, sheets.at_corners.max(axis=1))
-    if (least >= (1.0 - TRIFLE) * most).all():
-        return np.full(len(sheets.vertices), 0.5 * float(most.mean()))
+    """(v,) the radii by which the sheets are simplified: one for all where each sheet is evenly thick."""
+    if not are_uneven(sheets).any():
+        return np.full(len(sheets.vertices), 0.5 * float(sheets.at_corners.mean()))
     radius = np.zeros(len(sheets.vertices))
     np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)
     return radius

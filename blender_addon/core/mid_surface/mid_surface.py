@@ -28,23 +28,23 @@ from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
 from ..shape.solid_faces import SolidFaces, sharp_angle_of
 from ..shape.triangles import FEW, euler_characteristic, sides_of, unit_normals
-from ..small_matrices import dot, length_of
+from ..small_matrices import dot, length_of, summed
 from ..thickness.face_lengths import are_enough
 from ..united import united
 from .carried_sheets import CarriedSheets, are_curved, carried
 from .cut_out_plates import cut_out_plate
 from .even_quads import even_quads
 from .even_triangles import even_triangles
-from .few_faces import few_faces
+from .few_faces import are_uneven, few_faces
 from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
 from .thick_faces import ThickFaces, thick_faces
 from .thick_joints import joined_by_thick_parts
 from .thin_sheets import ThinSheets, thin_sheets
 
-_UNEVEN = 0.1  # the share of its mean by which an uneven thickness differs from it on the average; chosen: unseen
 _SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's rounding
 _PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
+_SHORTEST = 0.4  # sizes: two such edges along a border are not longer than one that would go; derived: 0.5 * kShort
 _CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 1.0 - FEW  # where less of the volume is sheet, a warning says so; derived: FEW
@@ -232,7 +232,7 @@ def _simplified(
     parts = int(sheets.part.max()) + 1
     if size > 0.0 or are_curved(normals * doubled[:, None], sheets.part, parts).any():
         wanted = min(wanted, int(_PER_AREA * area / length**2) + 1)
-    faces = few_faces(sheets, wanted, progress)
+    faces = few_faces(sheets, wanted, progress, _SHORTEST * size)
     if size <= 0.0:
         return faces
     if asked.quads:
@@ -392,7 +392,7 @@ def _lengths(sheets: CarriedSheets, parts: int) -> Callable[[Floats, Ints], Floa
     """
     part = np.repeat(sheets.part, 3)
     places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
-    slopes, uneven = _slopes_at_corners(sheets), _are_uneven(sheets, parts)
+    slopes, uneven = _slopes_at_corners(sheets), are_uneven(sheets)
 
     def lengths(queries: Floats, of: Ints) -> Floats:
         found = np.zeros(len(queries))
@@ -412,17 +412,6 @@ def _lengths(sheets: CarriedSheets, parts: int) -> Callable[[Floats, Ints], Floa
     return lengths
 
 
-def _are_uneven(sheets: CarriedSheets, parts: int) -> Flags:
-    """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
-    area = unit_normals(sheets.vertices[sheets.triangles])[1]
-    thickness = sheets.at_corners.mean(axis=1)
-    volume = np.bincount(sheets.part, area * thickness, parts)
-    whole = np.bincount(sheets.part, area, parts)
-    mean = volume / np.where(whole > 0.0, whole, 1.0)
-    apart = np.abs(thickness - mean[sheets.part])
-    return np.asarray(np.bincount(sheets.part, area * apart, parts) > _UNEVEN * volume)
-
-
 def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
     """(3 t, 3) the slope of the thickness around each corner: the mean, by area, of the triangles of its sheet."""
     key = sheets.part[:, None] * np.int64(len(sheets.vertices)) + sheets.triangles
@@ -432,10 +421,8 @@ def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
     normals, doubled = unit_normals(corners)
     opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
     each = (np.cross(normals[:, None], opposite) * sheets.at_corners[:, :, None]).sum(axis=1)
-    sums, whole = np.zeros((len(pairs), 3)), np.zeros(len(pairs))
-    np.add.at(sums, row, each[:, None])
-    np.add.at(whole, row, doubled[:, None])
-    slopes = sums / np.where(whole > 0.0, whole, np.inf)[:, None]
+    whole = summed(row, doubled[:, None], len(pairs))
+    slopes = summed(row, each[:, None], len(pairs)) / np.where(whole > 0.0, whole, np.inf)[:, None]
     steep = np.sqrt(dot(slopes, slopes))
     slopes *= (1.0 / np.maximum(steep, 1.0))[:, None]  # where walls face each other it is less
     return slopes[row.ravel()]

@@ -263,8 +263,8 @@ def _without_frayed(axis: MedialAxis, kept: Flags, facing: Flags) -> Flags:
     mine = kept[facet]
     count = int(of_corner.max(initial=-1)) + 1
     uses = np.bincount(of_corner[mine], minlength=count)
-    owners = np.zeros(count, np.int64)  # the sum of the facets at each edge: of a border, its facet
-    np.add.at(owners, of_corner[mine], facet[mine])
+    # the sum of the facets at each edge: of a border, its facet
+    owners = np.bincount(of_corner[mine], facet[mine], count).astype(np.int64)
     waiting = list(np.flatnonzero(uses == 1))
     while waiting:
         edge = waiting.pop()

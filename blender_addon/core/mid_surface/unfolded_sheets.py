@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
-from ..small_matrices import dot
+from ..small_matrices import dot, summed
 
 _ROUNDS = 30  # at most; a fold goes in a few, and what is left lies between vertices that stay
 
@@ -45,9 +45,8 @@ def unfolded(
 
 def _to_middle(vertices: Floats, triangles: Ints) -> Floats:
     """(v, 3) the way from each vertex to the mean of those around it in triangles."""
-    total, sums = np.zeros(len(vertices)), np.zeros_like(vertices)
-    for step in (1, 2):
-        other = np.roll(triangles, step, axis=1)
-        np.add.at(total, triangles, 1.0)
-        np.add.at(sums, triangles, vertices[other])
-    return sums / np.maximum(total, 1.0)[:, None] - vertices
+    rows = np.stack((triangles, triangles))
+    others = np.stack([np.roll(triangles, step, axis=1) for step in (1, 2)])
+    total = np.bincount(rows.ravel(), minlength=len(vertices))
+    sums = summed(rows, vertices[others], len(vertices))
+    return sums / np.maximum(total, 1)[:, None] - vertices

@@ -32,7 +32,7 @@ _LEAST_SINE = 0.2  # at the corners of an element with four; else triangles; cho
 def export_mid_surface(
     found: MidSurface, path: str | os.PathLike[str], frame: Floats | None = None
 ) -> Path:
-    """Write a middle surface; the extension of `path` chooses the format.
+    """Write a middle surface, and return the path of the file; the extension of `path` chooses the format.
 
     Parameters
     ----------
@@ -41,11 +41,6 @@ def export_mid_surface(
         Faces that no sheet stands for, if they were kept, go to a file next to it whose name ends with `_thick.stl`.
     frame : (4, 4) float64, optional
         From the vertices to the world.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
+from ..small_matrices import summed
 from .shape import Shape
 
 # A part is a sheet where its lids need at least this share of its own area: an arch of up to a seventh of its width.
@@ -36,9 +37,7 @@ def bent_sheets(shape: Shape, part: Ints, count: int) -> Flags:
     corners = shape.points[shape.triangles]
     vectors = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(vectors, axis=1)
-    sums = np.zeros((count, 3))
-    np.add.at(sums, part[part >= 0], vectors[part >= 0])
-    lids = np.linalg.norm(sums, axis=1)
+    lids = np.linalg.norm(summed(part[part >= 0], vectors[part >= 0], count), axis=1)
     found = (lids > 0.0) & (lids >= _LIDS * _sum_of(areas, part, count))
     faces = np.flatnonzero(found[part] & (part >= 0) & (areas > 0.0))
     if not len(faces):

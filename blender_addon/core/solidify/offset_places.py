@@ -19,7 +19,7 @@ from ..arrays import Flags, Floats, Ints
 from ..machine.native import own_errors
 from ..machine.progress import Progress
 from ..shape.triangles import unit_normals
-from ..small_matrices import dot, shortest_solutions
+from ..small_matrices import dot, shortest_solutions, summed
 from .sheet import beyond_rims, rim_sides
 
 EVEN = 0.005  # what a wall may lack; three times so much where its ways are tight
@@ -108,9 +108,7 @@ def _smoothed(
     least = (1.0 - EVEN) * np.minimum(distances(places), wall)
     lowest = 0.5 * _heights(points, triangles, moves)
     for _ in range(_ROUNDS):
-        total = np.zeros_like(places)
-        np.add.at(total, start, places[end])
-        nearer = 0.5 * places + 0.5 * total / count
+        nearer = 0.5 * places + 0.5 * summed(start, places[end], len(points)) / count
         before = _heights(points, triangles, nearer - points) >= lowest
         fits = loose & before & (distances(nearer) >= least)
         places[fits] = nearer[fits]
@@ -146,11 +144,9 @@ def _corner_moves(points: Floats, triangles: Ints, wall: float) -> Floats:
     # Weights with which the normal is exact where the corners lie on a sphere (Max 1999).
     around = lengths * np.roll(lengths, 1, axis=1)
     weights = doubled[:, None] / np.where(around > 0.0, around, 1.0)
-    matrix, wanted = np.zeros((len(points), 3, 3)), np.zeros((len(points), 3))
     squares = normals[:, :, None] * normals[:, None, :]
-    for corner in range(3):
-        np.add.at(matrix, triangles[:, corner], weights[:, corner, None, None] * squares)
-        np.add.at(wanted, triangles[:, corner], weights[:, corner, None] * normals)
+    matrix = summed(triangles.T, weights.T[:, :, None, None] * squares, len(points))
+    wanted = summed(triangles.T, weights.T[:, :, None] * normals, len(points))
     moves = wall * shortest_solutions(matrix, wanted, EVEN**2)
     length = np.sqrt(dot(moves, moves))
     return moves * np.minimum(1.0, _FARTHEST * wall / np.maximum(length, wall))[:, None]

@@ -55,10 +55,9 @@ def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> Longs:
     """(m,) the number of parts into which each side of a face is cut."""
     a, b, c = shape.points[shape.triangles[faces]].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    number, total = np.zeros((2, len(shape.triangles)))
-    np.add.at(number, places.faces, 1.0)
-    np.add.at(total, places.faces, places.spacing)
-    spacing = total[faces] / number[faces]
+    count = len(shape.triangles)
+    total = np.bincount(places.faces, places.spacing, count)
+    spacing = total[faces] / np.bincount(places.faces, minlength=count)[faces]
     return np.maximum(1, np.ceil(np.sqrt(area / (math.sqrt(3.0) / 4)) / spacing)).astype(np.int64)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..shape.triangles import unit_normals
-from ..small_matrices import shortest_solutions
+from ..small_matrices import shortest_solutions, summed
 from ..united import united
 
 # Directions in which the normals at a vertex differ by less than this share are left alone: a vertex between two
@@ -54,9 +54,9 @@ class Fans:
 
     def offsets(self, vertices: int, amount: Floats) -> Floats:
         """(vertices, 3) the shortest moves that offset each fan by its amount along its normal."""
-        matrix, wanted = np.zeros((vertices, 3, 3)), np.zeros((vertices, 3))
-        np.add.at(matrix, self.vertex, self.normal[:, :, None] * self.normal[:, None, :])
-        np.add.at(wanted, self.vertex, amount[:, None] * self.normal)
+        squares = self.normal[:, :, None] * self.normal[:, None, :]
+        matrix = summed(self.vertex, squares, vertices)
+        wanted = summed(self.vertex, amount[:, None] * self.normal, vertices)
         rows = np.flatnonzero(wanted.any(axis=1))
         moves = np.zeros((vertices, 3))
         moves[rows] = shortest_solutions(matrix[rows], wanted[rows], _OPPOSITE)
@@ -78,8 +78,7 @@ def fans_of(points: Floats, triangles: Ints, sharp: Ints) -> Fans:
     first, fan = np.unique(label, return_inverse=True)
     of_corners = fan.reshape(triangles.shape)
     normals, doubled = unit_normals(points[triangles])
-    total = np.zeros((len(first), 3))
-    np.add.at(total, of_corners, (normals * doubled[:, None])[:, None, :])
+    total = summed(of_corners, (normals * doubled[:, None])[:, None, :], len(first))
     length = np.linalg.norm(total, axis=1)
     return Fans(
         of_corners=of_corners,

@@ -35,7 +35,7 @@ _CHUNK = 1 << 16  # this many rows are formatted at once
 def export_thickness(
     found: Measurement, parts: ThinParts, path: str | os.PathLike, unit: str = "", title: str = ""
 ) -> Path:
-    """Write a measurement in world coordinates; the extension of `path` chooses the format.
+    """Write a measurement in world coordinates, and return the path of the file; its extension chooses the format.
 
     Parameters
     ----------
@@ -47,11 +47,6 @@ def export_thickness(
         The unit of lengths, which .json and .html state; "" if it is unknown.
     title : str
         The name of what was measured, for .html; by default that of the file.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

@@ -38,6 +38,7 @@ SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options,
 struct SheetLabels {
   std::span<const int32_t> part;   // (t) the sheet of each triangle
   std::span<const int32_t> nodes;  // vertices that stay where they are
+  double shortest = 0;             // edges of their curves are not shorter, if that can be
 };
 
 // A small medial mesh of sheets: flat ones are polygons, the others triangles.

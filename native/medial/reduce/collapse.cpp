@@ -62,6 +62,7 @@ class Collapser {
     }
     collapse_all({false, HUGE_VAL}, wanted, run);
     collapse_all({true, HUGE_VAL}, wanted, run);
+    if (locks_) collapse_all({false, HUGE_VAL, locks_->shortest()}, 0, run);
     return true;
   }
 
@@ -98,8 +99,9 @@ class Collapser {
 
   // Says which edges may collapse now.
   struct Allowed {
-    bool turns = false;      // slabs may turn over
-    double most = HUGE_VAL;  // the largest distance by which the surface may move
+    bool turns = false;         // slabs may turn over
+    double most = HUGE_VAL;     // the largest distance by which the surface may move
+    double longest = HUGE_VAL;  // if not infinite, edges of curves that are shorter, and no others
   };
 
   // Returns how many vertices describe the curves roughly: the nodes, and one for each curve that
@@ -162,9 +164,15 @@ class Collapser {
 
   // The lighter of both vertices decides, so that no small thing is lost in a large sheet.
   bool is_allowed(int32_t a, int32_t b, const Target& target) const {
+    if (allowed_.longest < HUGE_VAL && !is_short_on_curve(a, b)) return false;
     if (allowed_.most == HUGE_VAL) return target.cost < HUGE_VAL;
     const double weight = std::min(quadrics_[a].weight(), quadrics_[b].weight());
     return target.cost <= weight * allowed_.most * allowed_.most;
+  }
+
+  bool is_short_on_curve(int32_t a, int32_t b) const {
+    return distance(spheres_[a].centre, spheres_[b].centre) < allowed_.longest &&
+           locks_->is_curve(complex_, a, b);
   }
 
   // Returns the best sphere for both, or one of the two if that is as good.
@@ -215,6 +223,7 @@ class Collapser {
       return false;
     }
     if (target.kept == b) std::swap(a, b);
+    const bool along_curve = locks_ && locks_->is_on_curve(a) && locks_->is_on_curve(b);
     complex_.collapse(a, b);
     quadrics_[a] += quadrics_[b];
     spheres_[a] = target.sphere;
@@ -222,7 +231,7 @@ class Collapser {
     ++version_[a];
     version_[b] = kGone;
     --left_;
-    if (locks_) locks_->update(complex_, a);
+    if (along_curve) locks_->update(complex_, a);
     push_again(a);
     return true;
   }

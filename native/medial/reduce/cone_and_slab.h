@@ -10,6 +10,10 @@
 
 namespace medial {
 
+// Distances below this share of the extent change nothing: a sheet is flat, a curve straight, and a
+// triangle a line.
+constexpr double kNoDistance = 0x1p-16;  // chosen: midsurface
+
 struct Sphere {
   Vec3 centre;
   double radius = 0;

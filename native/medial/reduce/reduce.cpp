@@ -66,12 +66,20 @@ void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
   }
 }
 
+// Between sheets of one thickness each slab has both of its sides, although other sheets cover one:
+// with one alone, a vertex where sheets meet would be free to go along it with another radius.
+// Where thicknesses differ, slabs are slanted next to such vertices, but covered.
+bool are_equal(std::span<const double> radii) {
+  return std::ranges::all_of(radii, [&](double r) { return r == radii[0]; });
+}
+
 // Collapses a mesh in its unit, and fits what is left to the places. Between locks there is no fit:
 // it costs more than the collapse, and brings sheets no nearer to the solid.
 std::optional<Collapsed> reduced(const SphereMesh& mesh, const SphereComplex& complex,
                                  int32_t wanted, SheetLocks* locks, const Run& run) {
   begin_stage(run.progress, "Surface of the balls", 0, 0.2);
-  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
+  auto places = tangent_places(mesh, complex, run);
+  if (!locks || !are_equal(mesh.radius)) places = uncovered(mesh, places, run);
   begin_stage(run.progress, "Collapse of edges", 0.2, locks ? 1 : 0.6);
   auto found = collapse_edges(mesh, complex, places, wanted, run, locks);
   if (!found || locks) return found;
@@ -154,7 +162,8 @@ std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabel
   const Unit unit = unit_of(mesh);
   const SphereMesh inner = inward(mesh, unit);
   const SphereComplex complex(inner);
-  SheetLocks locks(complex, {part, labels.nodes}, inner.vertices.size());
+  SheetLocks locks(complex, {part, labels.nodes, unit.inward(labels.shortest)},
+                   inner.vertices.size());
   auto found = reduced(inner, complex, options.vertices, &locks, run);
   if (!found) return {};
   auto faces = flat_faces(found->mesh, found->part);

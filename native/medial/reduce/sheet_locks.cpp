@@ -6,7 +6,10 @@
 namespace medial {
 
 SheetLocks::SheetLocks(const SphereComplex& complex, const SheetLabels& labels, size_t vertices)
-    : part_(labels.part.begin(), labels.part.end()), node_(vertices, 0), curve_(vertices, 0) {
+    : shortest_(labels.shortest),
+      part_(labels.part.begin(), labels.part.end()),
+      node_(vertices, 0),
+      curve_(vertices, 0) {
   for (const int32_t v : labels.nodes) node_[v] = 1;
   for (size_t v = 0; v < vertices; ++v) curve_[v] = curve_edges(complex, static_cast<int32_t>(v));
 }

@@ -7,15 +7,12 @@
 
 namespace medial {
 
-// Distances below this share of the extent change nothing: a sheet is flat, a curve straight, and a
-// triangle a line.
-constexpr double kNoDistance = 0x1p-16;  // chosen: midsurface
-
 class SheetLocks {
  public:
   // The labels must fit the complex.
   SheetLocks(const SphereComplex& complex, const SheetLabels& labels, size_t vertices);
 
+  double shortest() const { return shortest_; }
   int32_t part(int32_t triangle) const { return part_[triangle]; }
   bool is_node(int32_t vertex) const { return node_[vertex] != 0; }
   bool is_on_curve(int32_t vertex) const { return curve_[vertex] != 0; }
@@ -44,6 +41,7 @@ class SheetLocks {
  private:
   int32_t curve_edges(const SphereComplex& complex, int32_t vertex) const;
 
+  double shortest_;
   std::vector<int32_t> part_;   // (t)
   std::vector<uint8_t> node_;   // (v)
   std::vector<int32_t> curve_;  // (v) how many edges of curves it has

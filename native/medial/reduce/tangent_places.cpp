@@ -46,6 +46,7 @@ class Places {
     const Vec3 axis = (1 / whole) * along;
     const double k = rise / whole, flat = std::sqrt(1 - k * k);
     const auto [outward, half] = sector(a, b, axis, flat);
+    if (half == 0) return;
     const Vec3 across = cross(axis, outward);
     const int steps = std::max(1, static_cast<int>(std::ceil(kRound * half / std::numbers::pi)));
     const double radius = (mesh_.radius[a] + mesh_.radius[b]) / 2;
@@ -77,7 +78,8 @@ class Places {
   Sphere sphere(int32_t v) const { return {at(v), mesh_.radius[v]}; }
 
   // Returns a direction across an edge, and the angle to both sides of it within which the cone is
-  // visible. There must be at most one slab at the edge.
+  // visible, or 0 where the slab is a line, which tells no direction. There must be at most one
+  // slab at the edge.
   std::pair<Vec3, double> sector(int32_t a, int32_t b, const Vec3& axis, double flat) const {
     int32_t third = -1;
     for (const int32_t t : complex_.triangles_of(a)) {
@@ -88,8 +90,9 @@ class Places {
       }
     }
     if (third < 0) return {across(axis).front(), std::numbers::pi};
-    const Vec3 inward = at(third) - at(a);
-    const Vec3 outward = -normalized(inward - dot(inward, axis) * axis);
+    const Vec3 way = at(third) - at(a), inward = way - dot(way, axis) * axis;
+    if (!(squared_length(inward) > kNoDistance * kNoDistance)) return {};
+    const Vec3 outward = -normalized(inward);
     const TangentNormals tangents = tangent_normals(sphere(a), sphere(b), sphere(third));
     if (!tangents.exist) return {outward, std::numbers::pi / 2};
     const double cosine = std::clamp(dot(tangents.normals[0], outward) / flat, -1.0, 1.0);
