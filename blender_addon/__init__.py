@@ -25,7 +25,7 @@ bl_info = {
 COMMIT = ""  # tools/packaging fills it in for a development build
 __version__ = ".".join(str(part) for part in bl_info["version"]) + (COMMIT and f"+{COMMIT}")
 
-# The public names of library.py; a test compares the two lists.
+# The public names of library.py, known without loading it.
 __all__ = [
     "BallCover",
     "Balls",

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# ruff: noqa: F401 - the names of __all__ are imported for the users of the package.
 """The front door for Python programs: arrays in, a medial axis out (docs/libraries.md).
 
     import medial_axis
@@ -18,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import __all__ as __all__
 from .core.arrays import Floats, Ints
 from .core.axis import compute as axis
 from .core.axis import each_part
@@ -63,44 +65,6 @@ from .core.settings import (
 )
 from .core.shape.own_frame import in_own_frame, own_origin
 from .core.shape.shape import Shape
-
-__all__ = [
-    "BallCover",
-    "Balls",
-    "Cancelled",
-    "Computation",
-    "CoverMode",
-    "CoverShapes",
-    "Criteria",
-    "DegenerateInputError",
-    "EachPart",
-    "ExportError",
-    "Form",
-    "InvalidInputError",
-    "MedialAxis",
-    "MedialAxisError",
-    "NativeModuleError",
-    "OutOfMemoryError",
-    "Progress",
-    "ReadError",
-    "Reconstruction",
-    "Rule",
-    "SamplingMode",
-    "Settings",
-    "Shape",
-    "Side",
-    "SidesFrom",
-    "compute",
-    "compute_each_part",
-    "cover_by_balls",
-    "extract",
-    "read",
-    "read_axis",
-    "reconstruct",
-    "reduce",
-    "write",
-    "write_balls",
-]
 
 # These options select facets of an existing analysis.
 _THRESHOLDS = [name for name in OPTIONS if name not in ANALYSED]

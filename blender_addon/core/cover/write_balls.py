@@ -24,7 +24,7 @@ from .robot_links import write_mjcf, write_urdf
 
 
 def export_balls(balls: Balls, path: str | os.PathLike, transform: Floats | None = None) -> Path:
-    """Write balls; the extension of `path` chooses the format.
+    """Write balls, and return the path of the file; the extension of `path` chooses the format.
 
     Parameters
     ----------
@@ -32,11 +32,6 @@ def export_balls(balls: Balls, path: str | os.PathLike, transform: Floats | None
     path : path of the file; its folder must exist. A file of that name is replaced.
     transform : (3, 4) or (4, 4) float64, optional
         The world matrix of the balls. It may move, turn, mirror and scale evenly; all lengths are scaled with it.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

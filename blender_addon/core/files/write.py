@@ -61,7 +61,7 @@ def export_axis(
     transform: NDArray | None = None,
     triangles: bool = False,
 ) -> Path:
-    """Write a medial axis; the extension of `path` chooses the format.
+    """Write a medial axis, and return the path of the file; the extension of `path` chooses the format.
 
     Parameters
     ----------
@@ -73,11 +73,6 @@ def export_axis(
     triangles : bool
         Write .ply, .obj and .off as triangles in text, which more programs read; other formats do not change.
         Such .ply and .off files omit edges without a facet: `left_out` reports their number.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

@@ -22,7 +22,7 @@ from .whole_file import write_whole
 def export_triangles(
     points: Floats, triangles: Ints, path: str | os.PathLike[str], frame: Floats, length: float
 ) -> Path:
-    """Write triangles; the extension of `path` chooses the format.
+    """Write triangles, and return the path of the file; the extension of `path` chooses the format.
 
     Parameters
     ----------
@@ -33,11 +33,6 @@ def export_triangles(
         From the points to the world.
     length : float
         The wall, or what else the triangles have to show, in the units of the points.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

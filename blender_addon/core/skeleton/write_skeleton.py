@@ -41,7 +41,7 @@ class _Content:
 def export_skeleton(
     skeleton: Skeleton, parts: Parts, path: str | os.PathLike, branches: Branches | None = None
 ) -> Path:
-    """Write a skeleton; the extension of `path` chooses the format.
+    """Write a skeleton, and return the path of the file; the extension of `path` chooses the format.
 
     Parameters
     ----------
@@ -51,11 +51,6 @@ def export_skeleton(
     path : path of the file; its folder must exist. A file of that name is replaced.
     branches : Branches, optional
         The measures of its branches, for the formats that hold them; otherwise its points alone are measured.
-
-    Returns
-    -------
-    path : Path
-        The file that was written, with links resolved.
 
     Raises
     ------

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# ruff: noqa: F401 - the shapes are imported for the tests.
 """Solids whose medial axes are known exactly, with seeded blue-noise samplers of their surfaces.
 
 Every shape has `sample(n, seed)`, `field(x)`, `inside(x)`, `normals(x)`, `axis_distance(x)` (exact distance to the
@@ -39,28 +40,3 @@ MORE_SHAPES: dict[str, Shape] = {
     "cone": frustum(0.8, 0.0, 0.8),
 }
 """Those that are sampled from triangle meshes only."""
-
-__all__ = [
-    "MORE_SHAPES",
-    "SHAPES",
-    "Array",
-    "Box",
-    "Capsule",
-    "Cyclide",
-    "EccentricShell",
-    "Ellipsoid",
-    "HoledPlate",
-    "Knot",
-    "Lathe",
-    "Prolate",
-    "Rng",
-    "RoundCone",
-    "Shape",
-    "Shell",
-    "Slab",
-    "Sphere",
-    "Torus",
-    "cylinder",
-    "frustum",
-    "grid_cube",
-]
