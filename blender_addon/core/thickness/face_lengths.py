@@ -24,6 +24,7 @@ from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.solid_faces import sharp_angle_of
 from ..shape.triangles import side_keys, unit_normals
+from ..united import united
 from .bounded_lengths import MeasuredSurface
 from .close_walls import rounding_of
 from .fine_faces import FineFaces, coarse_faces, cut_faces
@@ -291,16 +292,15 @@ class _Filled:
         return largest[group[piece]]
 
     def _fill(self, sheet: Longs, sources: Floats) -> None:
-        place, piece = self._places.place, self._places.piece
-        nearest, away = self._nearest(sheet[piece], np.flatnonzero(np.isfinite(sources)))
-        known = np.isfinite(away)
-        of_sheet = np.where(known, sources[nearest], self._largest(sheet))
+        rows = np.flatnonzero(~self.measured[self._places.place])
+        place = self._places.place[rows]
+        nearest, away = self._nearest(sheet, np.flatnonzero(np.isfinite(sources)), rows)
+        of_sheet = np.where(np.isfinite(away), sources[nearest], self._largest(sheet)[rows])
         of_sheet = np.maximum(of_sheet, self._own[place])
         order = np.lexsort((of_sheet, away, place))
         first = order[np.unique(place[order], return_index=True)[1]]
-        filled = np.full(len(self.lengths), np.inf)
-        filled[place[first]] = of_sheet[first]
-        self.lengths = np.where(self.measured, self.lengths, filled)
+        self.lengths = self.lengths.copy()
+        self.lengths[place[first]] = of_sheet[first]
 
     def _are_largest(self, sheet: Longs) -> Flags:
         """Whether no neighbour of a place has a larger ball, by the row of `place`."""
@@ -314,22 +314,29 @@ class _Filled:
         first[np.unique(place, return_index=True)[1]] = True
         return np.asarray(first & (own[place] > 0.0) & (own[place] >= beside[place]))
 
-    def _nearest(self, sheet: Longs, sources: NDArray[np.intp]) -> tuple[NDArray[np.intp], Floats]:
-        """The nearest of some rows of `place` in the same sheet, and how far it is; infinite where there is none.
+    def _nearest(
+        self, sheet: Longs, sources: NDArray[np.intp], rows: NDArray[np.intp]
+    ) -> tuple[NDArray[np.intp], Floats]:
+        """The source in the same sheet that is nearest to each row of `place`, and how far it is; infinite for none.
 
-        Sheets are laid side by side, so far apart that the nearest row is one of the same sheet.
+        Sheets are laid side by side, so far apart that the nearest source is one of the same sheet.
         """
         places, place = self._places.points, self._places.place
         if not len(sources):
-            return np.zeros(len(place), np.intp), np.full(len(place), np.inf)
+            return np.zeros(len(rows), np.intp), np.full(len(rows), np.inf)
+        number = np.unique(sheet, return_inverse=True)[1].ravel()[self._places.piece]
         low = places.min(axis=0)
         apart = 2.0 * float(np.linalg.norm(np.ptp(places, axis=0)[None], axis=1)[0])
-        points = (places - low)[place]
-        points[:, 0] += apart * np.unique(sheet, return_inverse=True)[1].ravel()
+
+        def beside(some: NDArray[np.intp]) -> Floats:
+            points = places[place[some]] - low
+            points[:, 0] += apart * number[some]
+            return points
+
         with native.own_errors() as module:
-            nearest = sources[module.nearest(points[sources], points)]
-        away = np.linalg.norm(places[place[nearest]] - places[place], axis=1)
-        return nearest, np.where(sheet[nearest] == sheet, away, np.inf)
+            nearest = sources[module.nearest(beside(sources), beside(rows))]
+        away = np.linalg.norm(places[place[nearest]] - places[place[rows]], axis=1)
+        return nearest, np.where(number[nearest] == number[rows], away, np.inf)
 
 
 def _without(known: Flags, group: Longs) -> Flags:
@@ -345,14 +352,5 @@ def _joined(fine: FineFaces, across: int) -> Longs:
     open_to = np.flatnonzero((fine.kinds <= across).ravel())
     order = open_to[np.argsort(keys[open_to], kind="stable")]
     same = keys[order[:-1]] == keys[order[1:]]
-    a, b = order[:-1][same] // 3, order[1:][same] // 3
-    lowest = np.arange(len(fine.triangles))
-    while True:
-        before = lowest
-        lowest = lowest.copy()
-        least = np.minimum(before[a], before[b])
-        for side in (before[a], before[b], a, b):
-            np.minimum.at(lowest, side, least)
-        lowest = lowest[lowest]
-        if np.array_equal(lowest, before):
-            return lowest
+    pairs = np.column_stack((order[:-1][same], order[1:][same])) // 3
+    return united(len(fine.triangles), pairs)
