@@ -814,6 +814,27 @@ MUTATIONS = (
         python=("test_reduce.py",),
     ),
     Mutation(
+        "reduce/collapse.cpp",
+        "collapse_all({false, HUGE_VAL, locks_->shortest()}, 0, run)",
+        "collapse_all({false, HUGE_VAL, 0}, 0, run)",
+        "short edges of borders stay",
+        python=("test_mid_surface.py",),
+    ),
+    Mutation(
+        "reduce/reduce.cpp",
+        "if (!locks || !are_equal(mesh.radius)) places",
+        "if (!locks || are_equal(mesh.radius)) places",
+        "sides of slabs that another sheet covers count for nothing",
+        python=("test_mid_surface.py",),
+    ),
+    Mutation(
+        "reduce/tangent_places.cpp",
+        "    if (half == 0) return;\n",
+        "",
+        "rims at triangles without area tell a direction",
+        python=("test_mid_surface.py",),
+    ),
+    Mutation(
         "reduce/fit.cpp",
         "dot(normals_[t], normal(corners)) > 0) continue;",
         "squared_length(normal(corners)) >= 0) continue;",

@@ -44,7 +44,6 @@ from .thin_sheets import ThinSheets, thin_sheets
 
 _SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's rounding
 _PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
-_SHORTEST = 0.4  # sizes: two such edges along a border are not longer than one that would go; derived: 0.5 * kShort
 _CURVED = 1.5  # thicknesses: the least edge on curved sheets without a size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 1.0 - FEW  # where less of the volume is sheet, a warning says so; derived: FEW
@@ -232,7 +231,7 @@ def _simplified(
     parts = int(sheets.part.max()) + 1
     if size > 0.0 or are_curved(normals * doubled[:, None], sheets.part, parts).any():
         wanted = min(wanted, int(_PER_AREA * area / length**2) + 1)
-    faces = few_faces(sheets, wanted, progress, _SHORTEST * size)
+    faces = few_faces(sheets, wanted, progress, size / 3.0)  # shorter edges make slivers
     if size <= 0.0:
         return faces
     if asked.quads:

@@ -8,12 +8,19 @@
 namespace medial {
 namespace {
 
-constexpr int kMostDepth = 21;  // as many cuts as a path can hold
-constexpr double kNeedle =
-    0.25;  // its height is a smaller share of its longest side; chosen: unseen
+constexpr int kMostDepth = 15;        // as many cuts as a path can hold
+constexpr double kLittleArea = 0.25;  // squared spacings; it gets one sample at most; chosen: axis
+constexpr double kOneSpacing = 2;     // a ratio; spacings that differ less are equal; chosen: axis
 
 Barycentric middle(const Barycentric& p, const Barycentric& q) {
   return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
+}
+
+// Returns one of the three quarters at the corners, or the one between them.
+std::array<Barycentric, 3> quarter(const std::array<Barycentric, 3>& c, uint32_t which) {
+  if (which == 3) return {middle(c[1], c[2]), middle(c[2], c[0]), middle(c[0], c[1])};
+  const Barycentric& kept = c[which];
+  return {kept, middle(kept, c[(which + 1) % 3]), middle(kept, c[(which + 2) % 3])};
 }
 
 Barycentric centre(const std::array<Barycentric, 3>& c) {
@@ -26,94 +33,54 @@ double area_of(const std::array<Vec3, 3>& p) {
   return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
 }
 
-// Returns one of the three quarters at the corners, or the one between them.
-std::array<Barycentric, 3> quarter(const std::array<Barycentric, 3>& c, uint64_t which) {
-  if (which == 3) return {middle(c[1], c[2]), middle(c[2], c[0]), middle(c[0], c[1])};
-  const Barycentric& kept = c[which];
-  return {kept, middle(kept, c[(which + 1) % 3]), middle(kept, c[(which + 2) % 3])};
-}
-
-// Cuts pieces of one triangle. Quarters of a needle are needles, so cutting it into short pieces
-// takes the square of its length; halves at the middle of its longest side take its length.
-class Cut {
- public:
-  Cut(const TriangleMesh& mesh, int32_t triangle) {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    to_b_ = mesh.points[b] - mesh.points[a];
-    to_c_ = mesh.points[c] - mesh.points[a];
-  }
-
-  bool is_needle(const std::array<Barycentric, 3>& corners) const {
-    const int i = longest_side(corners);
-    const Vec3 longest = side(corners, i), other = side(corners, (i + 1) % 3);
-    return length(cross(longest, other)) < kNeedle * squared_length(longest);
-  }
-
-  // Returns one of four quarters, or, from 4 on, one of two halves.
-  std::array<Barycentric, 3> part(const std::array<Barycentric, 3>& corners, uint64_t which) const {
-    if (which < 4) return quarter(corners, which);
-    const int i = longest_side(corners), next = (i + 1) % 3;
-    auto half = corners;
-    half[which == 4 ? next : i] = middle(corners[i], corners[next]);
-    return half;
-  }
-
- private:
-  Vec3 side(const std::array<Barycentric, 3>& corners, int i) const {
-    const Barycentric &p = corners[i], &q = corners[(i + 1) % 3];
-    return (q.b - p.b) * to_b_ + (q.c - p.c) * to_c_;
-  }
-  int longest_side(const std::array<Barycentric, 3>& corners) const {
-    int longest = 0;
-    for (int i = 1; i < 3; ++i) {
-      const double before = squared_length(side(corners, longest));
-      if (squared_length(side(corners, i)) > before) longest = i;
-    }
-    return longest;
-  }
-
-  Vec3 to_b_, to_c_;
-};
-
 class Cutter {
  public:
   Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out,
          int32_t triangle, size_t most)
-      : cut_(surface.mesh(), triangle),
-        patch_(surface.patch(triangle)),
+      : patch_(surface.patch(triangle)),
         cuts_(cuts),
         spacing_(spacing),
         out_(out),
         triangle_(triangle),
         most_(most) {}
 
-  void cut(uint64_t path, const std::array<Barycentric, 3>& corners, int depth) {
+  void cut(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
     if (out_.size() > most_) return;
-    if (depth < cuts_) return cut_into_parts(path, corners, depth);
+    if (depth < cuts_) return cut_into_quarters(path, corners, depth);
     const double spacing =
         spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
     const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
                                  patch_.point(corners[2])};
-    if (spacing_.field && depth < kMostDepth && wider(at, 2 * spacing)) {
-      return cut_into_parts(path, corners, depth);
-    }
     const double area = area_of(at);
+    if (spacing_.field && depth < kMostDepth && wider(at, 2 * spacing) &&
+        !(area < kLittleArea * spacing * spacing && even(at, spacing))) {
+      return cut_into_quarters(path, corners, depth);
+    }
     if (area > 0) out_.push_back({triangle_, path, area, spacing});
   }
 
  private:
-  void cut_into_parts(uint64_t path, const std::array<Barycentric, 3>& corners, int depth) {
-    const bool in_halves = depth >= cuts_ && cut_.is_needle(corners);
-    for (uint64_t i = in_halves ? 4 : 0; i < (in_halves ? 6 : 4); ++i) {
-      cut(path << 3 | i, cut_.part(corners, i), depth + 1);
-    }
+  void cut_into_quarters(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
   }
 
   static bool wider(const std::array<Vec3, 3>& p, double width) {
     return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
   }
 
-  Cut cut_;
+  // Returns whether the spacing is even along a piece. Quarters of a needle are needles, so cutting
+  // it into short pieces takes the square of its length in spacings; where the spacing is even, one
+  // long piece is enough.
+  bool even(const std::array<Vec3, 3>& p, double spacing) const {
+    for (int i = 0; i < 3; ++i) {
+      for (const Vec3& place : {p[i], 0.5 * p[i] + 0.5 * p[(i + 1) % 3]}) {
+        const double other = spacing_(place);
+        if (other > kOneSpacing * spacing || spacing > kOneSpacing * other) return false;
+      }
+    }
+    return true;
+  }
+
   Patch patch_;
   int cuts_;
   const Spacing& spacing_;
@@ -124,11 +91,10 @@ class Cutter {
 
 }  // namespace
 
-std::array<Barycentric, 3> Piece::corners(const TriangleMesh& mesh) const {
+std::array<Barycentric, 3> Piece::corners() const {
   std::array<Barycentric, 3> corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const Cut cut(mesh, triangle);
-  for (int shift = std::bit_width(path) - 4; shift >= 0; shift -= 3) {
-    corners = cut.part(corners, path >> shift & 7u);
+  for (int shift = std::bit_width(path) - 3; shift >= 0; shift -= 2) {
+    corners = quarter(corners, path >> shift & 3u);
   }
   return corners;
 }

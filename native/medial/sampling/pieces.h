@@ -16,14 +16,14 @@ struct Place {
   Barycentric barycentric() const { return {std::max(0.0, 1.0 - b - c), b, c}; }
 };
 
-// A piece is a triangle, or a part of it.
+// A piece is a triangle, or one of its quarters, sixteenths, ...
 struct Piece {
   int32_t triangle;
-  uint64_t path;  // a leading 1, then three bits per cut for the part
+  uint32_t path;  // a leading 1, then two bits per cut for the quarter
   double area;
   double spacing;
 
-  std::array<Barycentric, 3> corners(const TriangleMesh& mesh) const;
+  std::array<Barycentric, 3> corners() const;
 };
 
 // Cuts every triangle `cuts` times. If the spacing comes from a field, a piece is cut further while

@@ -80,7 +80,7 @@ class DartReader {
 
  private:
   void enter() {
-    corners_ = piece().corners(darts_.surface.mesh());
+    corners_ = piece().corners();
     patch_ = darts_.surface.patch(piece().triangle);
     const uint64_t hash =
         scrambled(darts_.seed ^ scrambled(static_cast<uint64_t>(darts_.of[slot_])));
