@@ -25,6 +25,14 @@ def _bug(file: str, old: str, new: str, breaks: str, *tests: str) -> PythonMutat
 
 
 MUTATIONS = (
+    # ---- mid_surface
+    _bug(
+        "mid_surface/few_faces.py",
+        "if not are_uneven(sheets).any():",
+        "if are_uneven(sheets).all():",
+        "balls where sheets meet are as large as the thickest",
+        "test_mid_surface.py",
+    ),
     # ---- machine
     _bug(
         "machine/cache.py",

@@ -66,9 +66,8 @@ void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
   }
 }
 
-// Between sheets of one thickness each slab has both of its sides, although other sheets cover one:
-// with one alone, a vertex where sheets meet would be free to go along it with another radius.
-// Where thicknesses differ, slabs are slanted next to such vertices, but covered.
+// Both sides of the slabs of equal balls are as far from their sheet, so places that other sheets
+// cover say nothing else than those on the other side, and need not be looked for.
 bool are_equal(std::span<const double> radii) {
   return std::ranges::all_of(radii, [&](double r) { return r == radii[0]; });
 }

@@ -46,7 +46,6 @@ class Places {
     const Vec3 axis = (1 / whole) * along;
     const double k = rise / whole, flat = std::sqrt(1 - k * k);
     const auto [outward, half] = sector(a, b, axis, flat);
-    if (half == 0) return;
     const Vec3 across = cross(axis, outward);
     const int steps = std::max(1, static_cast<int>(std::ceil(kRound * half / std::numbers::pi)));
     const double radius = (mesh_.radius[a] + mesh_.radius[b]) / 2;
