@@ -286,9 +286,8 @@ class _Rows:
 
     def solved(self, start: Floats) -> Floats:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
-        ways = self._targets - dot(
-            self._squares, start[:, None]
-        )  # to the plane, where there is one
+        # The way to the plane, where there is one.
+        ways = self._targets - dot(self._squares, start[:, None])
         some = self._planes > 1
         ways[some] = shortest_solutions(self._squares[some], ways[some], _PLANE)
         return start + ways
