@@ -66,19 +66,12 @@ void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
   }
 }
 
-// Both sides of the slabs of equal balls are as far from their sheet, so places that other sheets
-// cover say nothing else than those on the other side, and need not be looked for.
-bool are_equal(std::span<const double> radii) {
-  return std::ranges::all_of(radii, [&](double r) { return r == radii[0]; });
-}
-
 // Collapses a mesh in its unit, and fits what is left to the places. Between locks there is no fit:
 // it costs more than the collapse, and brings sheets no nearer to the solid.
 std::optional<Collapsed> reduced(const SphereMesh& mesh, const SphereComplex& complex,
                                  int32_t wanted, SheetLocks* locks, const Run& run) {
   begin_stage(run.progress, "Surface of the balls", 0, 0.2);
-  auto places = tangent_places(mesh, complex, run);
-  if (!locks || !are_equal(mesh.radius)) places = uncovered(mesh, places, run);
+  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
   begin_stage(run.progress, "Collapse of edges", 0.2, locks ? 1 : 0.6);
   auto found = collapse_edges(mesh, complex, places, wanted, run, locks);
   if (!found || locks) return found;
