@@ -43,7 +43,7 @@ def test_import_is_cheap():
 
 
 def test_package_offers_what_the_library_has():
-    assert medial_axis.__all__ == sorted(medial_axis.__all__)
+    assert medial_axis.__all__ == library.__all__ == sorted(library.__all__)
     assert set(medial_axis.__all__) <= set(dir(medial_axis))
     for name in medial_axis.__all__:
         assert getattr(medial_axis, name) is getattr(library, name)

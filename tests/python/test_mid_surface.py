@@ -302,9 +302,8 @@ def test_a_vertex_between_sheets_stays_between_them():
     """The balls between them were as large as the thicker wall, and slabs next to these slanted."""
     found = sheets_of(pot(14, 0.08), Settings(samples=16000))
     assert not found.warnings and found.sheets == 2
-    assert found.share == pytest.approx(
-        1.03, abs=0.02
-    )  # a chord's bulge, and the corner counts twice
+    # A chord bulges, and the corner counts twice.
+    assert found.share == pytest.approx(1.03, abs=0.02)
 
 
 def test_sheets_of_a_pot_with_flat_sides_are_polygons():

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
-from ..small_matrices import times
+from ..small_matrices import summed, times
 
 
 def facet_areas(vertices: Floats, offsets: Ints, corners: Ints) -> Floats:
@@ -48,7 +48,7 @@ def sheet_normals(vertices: Floats, offsets: Ints, corners: Ints, part: Ints) ->
     own = _part_of_vertices(len(vertices), corners, part[facet], area[facet])
     kept = own[corners] == part[facet]
     facet, vertex = facet[kept], corners[kept]
-    total = _sums(vertex, doubled[facet], len(vertices))
+    total = summed(vertex, doubled[facet], len(vertices))
     whole = np.bincount(vertex, area[facet], len(vertices))
     opposed = np.linalg.norm(total, axis=1) < 0.5 * whole
     there = np.flatnonzero(opposed[vertex])
@@ -99,7 +99,7 @@ def curve_tangents(vertices: Floats, wires: Ints) -> Floats:
     """
     along = _unit(vertices[wires[:, 1]] - vertices[wires[:, 0]])
     ends = wires.T.ravel()
-    total = _sums(ends, np.concatenate([along, along]), len(vertices))
+    total = summed(ends, np.concatenate([along, along]), len(vertices))
     degree = np.bincount(ends, minlength=len(vertices))
     order, starts = np.argsort(ends, kind="stable"), np.cumsum(degree) - degree
     for row in np.flatnonzero(degree > 2).tolist():
@@ -120,11 +120,6 @@ def _scaled(vertices: Floats) -> Floats:
     """The vertices with coordinates up to 1, so that no square of them overflows."""
     largest = float(np.abs(vertices).max(initial=0.0))
     return vertices / largest if largest > 0.0 else vertices
-
-
-def _sums(rows: Ints, vectors: Floats, count: int) -> Floats:
-    """Return the sum of the vectors with each row, (count, 3)."""
-    return np.column_stack([np.bincount(rows, vectors[:, k], count) for k in range(3)])
 
 
 def _unit(vectors: Floats) -> Floats:

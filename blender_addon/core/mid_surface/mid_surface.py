@@ -303,9 +303,7 @@ def _centres(made: SheetFaces) -> tuple[Floats, Floats]:
     areas = 0.5 * unit_normals(made.vertices[triangles])[1]
     whole = np.asarray(np.bincount(made.of, areas, count), np.float64)
     middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
-    sums = [np.bincount(made.of, column, count) for column in middles.T]
-    centre = np.column_stack(sums).astype(np.float64)
-    return centre / np.where(whole > 0.0, whole, 1.0)[:, None], whole
+    return summed(made.of, middles, count) / np.where(whole > 0.0, whole, 1.0)[:, None], whole
 
 
 def _with_volume(made: SheetFaces, thickness: Floats) -> SheetFaces:

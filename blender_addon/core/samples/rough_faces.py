@@ -13,7 +13,7 @@ from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
 from ..shape.cube_faces import are_cubes
 from ..shape.shape import Shape
-from ..small_matrices import dot
+from ..small_matrices import dot, summed
 from .scan import SOME
 from .surface_normals import cross
 
@@ -103,6 +103,4 @@ def _of_size_one(points: Floats) -> Floats:
 def _vertex_normals(points: Floats, triangles: Ints) -> Floats:
     """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    area, corners = cross(b - a, c - a), triangles.ravel()
-    sums = [np.bincount(corners, np.repeat(column, 3), len(points)) for column in area.T]
-    return np.column_stack(sums)
+    return summed(triangles, cross(b - a, c - a)[:, None], len(points))

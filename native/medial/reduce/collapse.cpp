@@ -62,7 +62,9 @@ class Collapser {
     }
     collapse_all({false, HUGE_VAL}, wanted, run);
     collapse_all({true, HUGE_VAL}, wanted, run);
-    if (locks_) collapse_all({false, HUGE_VAL, locks_->shortest()}, 0, run);
+    if (locks_ && locks_->shortest() > 0) {
+      collapse_all({false, HUGE_VAL, locks_->shortest()}, 0, run);
+    }
     return true;
   }
 
@@ -223,6 +225,7 @@ class Collapser {
       return false;
     }
     if (target.kept == b) std::swap(a, b);
+    // No other collapse changes which vertices are on curves.
     const bool along_curve = locks_ && locks_->is_on_curve(a) && locks_->is_on_curve(b);
     complex_.collapse(a, b);
     quadrics_[a] += quadrics_[b];
