@@ -2,6 +2,7 @@
 #include "exact/even_creases.h"
 
 #include "base/parallel.h"
+#include "base/selected_rows.h"
 #include "exact/crease_reach.h"
 
 namespace medial {
@@ -84,14 +85,10 @@ class CreaseHolder {
 
   // Moves the nearest vertex on a crease to each corner that no vertex has reached.
   void reach_corners(const Run& run) {
-    std::vector<int32_t> held;
-    std::vector<Vec3> places;
-    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-      if (e_.held[v] != kOnLine) continue;
-      held.push_back(v);
-      places.push_back(e_.position[v]);
-    }
+    const auto held =
+        rows_where(e_.mesh.vertices(), [&](int32_t v) { return e_.held[v] == kOnLine; });
     if (held.empty()) return;
+    const auto places = rows_of(e_.position, held);
     const PointTree tree = PointTree::sorted(places, {run.threads, nullptr, nullptr});
     for (size_t c = 0; c < corners_.size(); ++c) {
       if (reached_[c]) continue;
@@ -129,10 +126,9 @@ void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
 }
 
 void unite_held(EvenMesh& even) {
-  std::vector<int32_t> held, moved;
-  for (int32_t v = 0; v < even.mesh.vertices(); ++v) {
-    if (even.held[v] != kFree && even.mesh.has_triangles(v)) held.push_back(v);
-  }
+  std::vector<int32_t> moved, held = rows_where(even.mesh.vertices(), [&](int32_t v) {
+                                return even.held[v] != kFree && even.mesh.has_triangles(v);
+                              });
   std::ranges::sort(held, {}, [&](int32_t v) {
     const auto& [x, y, z] = even.position[v];
     return std::tuple(x, y, z, even.held[v], v);

@@ -236,6 +236,13 @@ std::vector<int32_t> EvenPlaces::open_rims() const {
   return vertices_where([&](int32_t v) { return e_.held[v] == kFree && e_.mesh.is_rim(v); });
 }
 
+std::vector<EvenPlaces::OnRim> EvenPlaces::along_rims(std::span<const int32_t> rims) const {
+  std::vector<OnRim> found;
+  found.reserve(rims.size());
+  for (const int32_t v : rims) found.push_back({v, e_.mesh.along_curve(v)});
+  return found;
+}
+
 SmoothRim EvenPlaces::way_out(int32_t v) const {
   if (placing_[v] == Placing::refused) return last_ball(v);
   if (placing_[v] != Placing::touching || found_[v].walls.count != 2) return {};
@@ -307,11 +314,10 @@ double EvenPlaces::step_of(int32_t v, const SmoothRim& way) const {
 
 // Returns means along rims, of a vertex and those beside it; what is not known is NaN, and takes on
 // the mean of what is known beside it.
-void EvenPlaces::take_means(std::span<const int32_t> rims, int rounds,
-                            std::vector<double>& values) const {
+void EvenPlaces::take_means(std::span<const OnRim> rims, int rounds, std::vector<double>& values) {
   std::vector<double> means(values);
   for (int round = 0; round < rounds; ++round) {
-    for (const int32_t v : rims) {
+    for (const auto& [v, along] : rims) {
       double sum = 0, weight = 0;
       const auto add = [&](double value, double share) {
         if (std::isnan(value)) return;
@@ -319,7 +325,7 @@ void EvenPlaces::take_means(std::span<const int32_t> rims, int rounds,
         weight += share;
       };
       add(values[v], 0.5);
-      for (const int32_t other : e_.mesh.along_curve(v)) add(values[other], 0.25);
+      for (const int32_t other : along) add(values[other], 0.25);
       means[v] = weight > 0 ? sum / weight : values[v];
     }
     std::swap(values, means);
@@ -328,13 +334,13 @@ void EvenPlaces::take_means(std::span<const int32_t> rims, int rounds,
 
 // Steps that the places of single vertices ask for are noise where the faces are rough. There rims
 // stay where they are smooth; elsewhere they take the means along the rim.
-void EvenPlaces::even_out(std::span<const int32_t> rims, std::span<const SmoothRim> way,
+void EvenPlaces::even_out(std::span<const OnRim> rims, std::span<const SmoothRim> way,
                           std::vector<double>& step) const {
   std::vector<double> raw(step), rough(step.size(), NAN);
   take_means(rims, kMeans, step);
-  for (const int32_t v : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
+  for (const auto& [v, along] : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
   take_means(rims, kMeansOfRoughness, rough);
-  for (const int32_t v : rims) {
+  for (const auto& [v, along] : rims) {
     if (!(rough[v] < kRough) && !way[v].at_wall) {
       step[v] = 0;
     } else if (way[v].at_wall) {
@@ -344,8 +350,8 @@ void EvenPlaces::even_out(std::span<const int32_t> rims, std::span<const SmoothR
     }
   }
   for (int round = 0; round < kAlongRounds; ++round) {
-    for (const int32_t v : rims) {
-      for (const int32_t other : e_.mesh.along_curve(v)) {
+    for (const auto& [v, along] : rims) {
+      for (const int32_t other : along) {
         const double apart = distance(e_.position[v], e_.position[other]);
         if (!std::isnan(step[other])) step[v] = std::min(step[v], step[other] + kRimSlope * apart);
       }
@@ -365,7 +371,7 @@ bool EvenPlaces::slide() {
         if (way[v].reach > 0) step[v] = step_of(v, way[v]);
       },
       kFew);
-  even_out(rims, way, step);
+  even_out(along_rims(rims), way, step);
   went_back_.resize(e_.position.size(), 0);
   double most = 0;
   for (const int32_t v : rims) {

@@ -3,6 +3,7 @@
 // the two places that a ball touches become one.
 #pragma once
 
+#include "base/selected_rows.h"
 #include "exact/crisp.h"
 #include "exact/smooth_rim.h"
 #include "remesh/even_mesh.h"
@@ -40,13 +41,16 @@ class EvenPlaces {
   // Returns the vertices of triangles for which is_wanted(vertex), ascending.
   template <typename Wanted>
   std::vector<int32_t> vertices_where(const Wanted& is_wanted) const {
-    std::vector<int32_t> found;
-    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-      if (e_.mesh.has_triangles(v) && is_wanted(v)) found.push_back(v);
-    }
-    return found;
+    return rows_where(e_.mesh.vertices(),
+                      [&](int32_t v) { return e_.mesh.has_triangles(v) && is_wanted(v); });
   }
+  // A vertex of a rim, and its neighbours along it.
+  struct OnRim {
+    int32_t vertex;
+    Edge along;
+  };
   std::vector<int32_t> open_rims() const;
+  std::vector<OnRim> along_rims(std::span<const int32_t> rims) const;
   double hole_at(int32_t v) const;
   bool has_walls(int32_t v) const;
   std::vector<Foot> feet_of(int32_t v) const;
@@ -63,9 +67,9 @@ class EvenPlaces {
   Touch ball_between(int32_t v, const Vec3& start) const;
   Vec3 last_place(int32_t v, const Vec3& far) const;
   double step_of(int32_t v, const SmoothRim& way) const;
-  void take_means(std::span<const int32_t> rims, int rounds, std::vector<double>& values) const;
+  static void take_means(std::span<const OnRim> rims, int rounds, std::vector<double>& values);
   Vec3 outward_at(int32_t v) const;
-  void even_out(std::span<const int32_t> rims, std::span<const SmoothRim> way,
+  void even_out(std::span<const OnRim> rims, std::span<const SmoothRim> way,
                 std::vector<double>& step) const;
 
   EvenMesh& e_;

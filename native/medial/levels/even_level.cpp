@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/even_level.h"
 
+#include "base/selected_rows.h"
+
 namespace medial {
 namespace {
-
-template <typename T>
-Column<T> rows_of(const Column<T>& values, std::span<const int32_t> rows) {
-  Column<T> found;
-  found.reserve(rows.size());
-  for (const int32_t row : rows) found.push_back(values[row]);
-  return found;
-}
 
 class EvenWriter {
  public:
@@ -43,10 +37,7 @@ class EvenWriter {
 
  private:
   std::vector<int32_t> triangles_in_order() const {
-    std::vector<int32_t> rows;
-    for (int32_t t = 0; t < e_.mesh.triangles(); ++t) {
-      if (!e_.mesh.is_gone(t)) rows.push_back(t);
-    }
+    auto rows = rows_where(e_.mesh.triangles(), [&](int32_t t) { return !e_.mesh.is_gone(t); });
     std::stable_sort(rows.begin(), rows.end(),
                      [&](int32_t a, int32_t b) { return e_.source[a] < e_.source[b]; });
     return rows;

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "base/selected_rows.h"
 #include "exact/even_places.h"
 #include "levels/even_level.h"
 #include "remesh/remesh.h"
@@ -30,13 +31,6 @@ std::vector<uint8_t> beside_gaps(const InnerComplex& complex, const Alive& alive
   return found;
 }
 
-template <typename T>
-std::vector<T> known_at(const std::vector<T>& values, std::span<const int32_t> rows) {
-  std::vector<T> found;
-  for (const int32_t row : rows) found.push_back(values[row]);
-  return found;
-}
-
 // Returns the mesh of a level.
 EvenMesh mesh_of(const Level& level, const EvenVertices& known) {
   const auto count = static_cast<int32_t>(level.vertices.size());
@@ -45,7 +39,7 @@ EvenMesh mesh_of(const Level& level, const EvenVertices& known) {
     const int32_t* corner = level.face_vertices.data() + c;
     triangles.push_back({corner[0], corner[1], corner[2]});
   }
-  std::vector<uint8_t> is_node = known_at(known.is_end, level.vertex_of);
+  std::vector<uint8_t> is_node = rows_of(known.is_end, level.vertex_of);
   for (const int32_t v : level.points) is_node[v] = 1;
   std::vector<int32_t> origin(static_cast<size_t>(count)), source(triangles.size());
   std::iota(origin.begin(), origin.end(), 0);
@@ -57,9 +51,9 @@ EvenMesh mesh_of(const Level& level, const EvenVertices& known) {
   }
   return {SheetComplex(count, std::move(triangles), level.wires, is_node),
           {level.vertices.begin(), level.vertices.end()},
-          known_at(known.target, level.vertex_of),
+          rows_of(known.target, level.vertex_of),
           std::move(origin),
-          known_at(known.held, level.vertex_of),
+          rows_of(known.held, level.vertex_of),
           std::move(source),
           std::move(normal)};
 }
@@ -82,7 +76,7 @@ void hold_others(EvenMesh& even, std::vector<uint8_t> near) {
 
 void smooth_new_rims(Level& level, const Hierarchy::Parts& h, const Alive& alive, const Run& run) {
   const std::vector<uint8_t> gaps = beside_gaps(h.complex, alive);
-  std::vector<uint8_t> near = known_at(gaps, level.vertex_of);
+  std::vector<uint8_t> near = rows_of(gaps, level.vertex_of);
   if (std::find(near.begin(), near.end(), 1) == near.end()) return;
   EvenMesh even = mesh_of(level, h.even->vertices);
   hold_others(even, std::move(near));

@@ -2,6 +2,9 @@
 #include "remesh/even_mesh.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
+
+#include "base/selected_rows.h"
 
 namespace medial {
 namespace {
@@ -39,7 +42,6 @@ class MovedStar {
  public:
   // Triangles at the edge to `without` vanish, and keep no side.
   MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, int32_t without = -1) : e_(even) {
-    star_.reserve(kUsualStar);
     e_.mesh.for_triangles(v, [&](int32_t t) {
       if (!keeps_sides_) return;
       const Triangle& corners = e_.mesh.triangle(t);
@@ -70,7 +72,7 @@ class MovedStar {
   }
 
  private:
-  static constexpr size_t kUsualStar = 12;  // triangles that are stored at once
+  static constexpr size_t kUsualStar = 12;  // triangles that need no memory from the heap
   struct Moved {
     int32_t triangle, next, last;  // its corners after the vertex
     Vec3 normal;
@@ -117,7 +119,7 @@ class MovedStar {
   }
 
   const EvenMesh& e_;
-  std::vector<Moved> star_;
+  boost::container::small_vector<Moved, kUsualStar> star_;
   bool keeps_sides_ = true;
 };
 
@@ -152,6 +154,17 @@ void settle_normal(EvenMesh& even, int32_t triangle) {
 void move(EvenMesh& even, int32_t v, const Vec3& place) {
   even.position[v] = place;
   even.mesh.for_triangles(v, [&](int32_t t) { settle_normal(even, t); });
+}
+
+std::vector<int32_t> compact(EvenMesh& even) {
+  auto [vertices, triangles] = even.mesh.compact();
+  even.position = rows_of(even.position, vertices);
+  even.target = rows_of(even.target, vertices);
+  even.origin = rows_of(even.origin, vertices);
+  even.held = rows_of(even.held, vertices);
+  even.source = rows_of(even.source, triangles);
+  even.normal = rows_of(even.normal, triangles);
+  return vertices;
 }
 
 std::optional<std::array<Vec3, 2>> normals_of_flip(const EvenMesh& even, int32_t a, int32_t b) {

@@ -40,6 +40,8 @@ bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);
 // Collapses a vertex into another one; `moved` becomes the triangles that it had.
 void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
+// Does what SheetComplex::compact does; returns the former numbers of the vertices.
+std::vector<int32_t> compact(EvenMesh& even);
 // Takes over the normal of a triangle whose corners have moved.
 void settle_normal(EvenMesh& even, int32_t triangle);
 // Returns the normals of the two triangles at an edge as they would be after SheetComplex::flip;

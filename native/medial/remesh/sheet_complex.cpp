@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/selected_rows.h"
+
 namespace medial {
 
 SheetComplex::SheetComplex(int32_t vertices, std::vector<Triangle> triangles,
@@ -85,8 +87,12 @@ std::vector<int32_t> SheetComplex::curve_neighbours(int32_t v) const {
 }
 
 Edge SheetComplex::along_curve(int32_t v) const {
-  const auto found = curve_neighbours(v);
-  return {found[0], found[1]};
+  Edge ends{-1, -1};
+  for_corners(v, [&](int32_t other) {
+    if (other == ends[0] || other == ends[1] || uses(v, other) == 2) return;
+    ends[ends[0] >= 0] = other;
+  });
+  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
 }
 
 Stratum SheetComplex::find_stratum(int32_t v) const {
@@ -273,6 +279,35 @@ int32_t SheetComplex::split(int32_t a, int32_t b, std::vector<int32_t>& split_of
     split_off.push_back(half);
   }
   return middle;
+}
+
+Kept SheetComplex::compact() {
+  Kept kept{
+      rows_where(vertices(), [&](int32_t v) { return has_triangles(v) || stays(v); }),
+      rows_where(triangles(), [&](int32_t t) { return !is_gone(t); }),
+  };
+  const auto vertex = places_among(kept.vertices, vertices());
+  const auto triangle = places_among(kept.triangles, triangles());
+  const auto corner = [&](int32_t c) { return c < 0 ? c : 3 * triangle[c / 3] + c % 3; };
+  for (size_t t = 0; t < kept.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int32_t before = 3 * kept.triangles[t] + i;
+      next_[3 * t + i] = corner(next_[before]);
+      before_[3 * t + i] = corner(before_[before]);
+      triangles_[t][i] = vertex[triangles_[kept.triangles[t]][i]];
+    }
+  }
+  for (size_t v = 0; v < kept.vertices.size(); ++v) {
+    first_[v] = corner(first_[kept.vertices[v]]);
+  }
+  stratum_ = rows_of(stratum_, kept.vertices);
+  stays_ = rows_of(stays_, kept.vertices);
+  for (auto* of_corners : {&next_, &before_}) of_corners->resize(3 * kept.triangles.size());
+  triangles_.resize(kept.triangles.size());
+  first_.resize(kept.vertices.size());
+  mark_.assign(kept.vertices.size(), 0);
+  for (auto& [a, b] : wires_) a = vertex[a], b = vertex[b];
+  return kept;
 }
 
 }  // namespace medial

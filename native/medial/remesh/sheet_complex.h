@@ -17,6 +17,11 @@ namespace medial {
 // Every other vertex is a node, and so is one at which a wire ends, or that is said to be one.
 enum class Stratum : uint8_t { sheet, curve, node };
 
+// The former numbers of the vertices and triangles that are left, ascending.
+struct Kept {
+  std::vector<int32_t> vertices, triangles;
+};
+
 // `triangles_at`, `can_collapse` and what calls them may not be called from several threads at
 // once.
 class SheetComplex {
@@ -98,6 +103,9 @@ class SheetComplex {
   // Divides an edge by a new vertex, which is returned. Of each triangle at the edge, the half at
   // `a` keeps its number; split_off[i] is the other half of triangles_at(a, b)[i].
   int32_t split(int32_t a, int32_t b, std::vector<int32_t>& split_off);
+
+  // Numbers what is left anew, in the same order, without what is gone.
+  Kept compact();
 
  private:
   Stratum find_stratum(int32_t v) const;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/selected_rows.h"
 
 namespace medial {
 namespace {
@@ -130,11 +131,11 @@ void spread_least(const SheetComplex& mesh, std::span<const Vec3> position, doub
 
 std::vector<double> half_widths(const SheetComplex& mesh, std::span<const Vec3> position) {
   std::vector<double> distance(position.size(), HUGE_VAL);
-  std::vector<int32_t> before(position.size(), -1), order;
+  std::vector<int32_t> before(position.size(), -1);
   for (int32_t v = 0; v < mesh.vertices(); ++v) {
     if (mesh.stratum(v) != Stratum::sheet) distance[v] = 0;
-    if (mesh.has_triangles(v)) order.push_back(v);
   }
+  auto order = rows_where(mesh.vertices(), [&](int32_t v) { return mesh.has_triangles(v); });
   spread(mesh, position, 1, distance, [&](int32_t v, int32_t from) { before[v] = from; });
   std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
     return std::tie(distance[a], a) < std::tie(distance[b], b);

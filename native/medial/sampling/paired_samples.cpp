@@ -2,6 +2,7 @@
 #include "sampling/paired_samples.h"
 
 #include "base/random.h"
+#include "base/selected_rows.h"
 #include "sampling/mirrored_rows.h"
 
 namespace medial {
@@ -360,8 +361,7 @@ std::vector<FixedSample> PairedSamples::sorted() && {
   for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](int32_t a, int32_t b) { return samples_[a].kind < samples_[b].kind; });
-  std::vector<int32_t> place(order.size());
-  for (size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int32_t>(i);
+  const std::vector<int32_t> place = places_among(order, order.size());
   std::vector<FixedSample> all;
   for (const int32_t id : order) {
     all.push_back(samples_[id]);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/rounding.h"
+#include "base/selected_rows.h"
 #include "base/union_find.h"
 #include "walls/closest_place.h"
 #include "walls/least_distance.h"
@@ -181,9 +182,7 @@ Foot Faces::lifted(const Foot& flat, const Vec3& from) const {
 }
 
 std::vector<int32_t> Faces::places_in_tree() const {
-  std::vector<int32_t> places(order_.size());
-  for (size_t i = 0; i < order_.size(); ++i) places[order_[i]] = static_cast<int32_t>(i);
-  return places;
+  return places_among(order_, order_.size());
 }
 
 Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
