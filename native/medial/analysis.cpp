@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <numeric>
 
 #include "analysis_parts.h"
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
+#include "base/rows.h"
 #include "cocone/solid.h"
 #include "cocone/watertight_surface.h"
 #include "inside/doubts.h"
@@ -186,11 +186,8 @@ std::vector<double> MedialAnalysis::rho(Rule rule) const {
 }
 
 std::vector<double> MedialAnalysis::spacing() const {
-  std::vector<double> result;
-  result.reserve(parts_->samples.row.size());
-  for (const int32_t id : samples_by_row(parts_->samples))
-    result.push_back(parts_->significance.spacing[id]);
-  return outward_lengths(std::move(result), parts_->frame);
+  const std::span<const double> spacing = parts_->significance.spacing;
+  return outward_lengths(rows_of(spacing, samples_by_row(parts_->samples)), parts_->frame);
 }
 
 std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
@@ -198,8 +195,7 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
                                                  Progress* progress) const {
   begin_stage(progress, "Feature size", 0, 1);
   const auto at = rows ? samples_of(*rows, parts_->samples) : samples_by_row(parts_->samples);
-  std::vector<int32_t> all(parts_->edges.ends.size());
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<int32_t> all = all_rows(parts_->edges.ends.size());
   const auto ids =
       selected(selection(*parts_, {.thresholds = thresholds}), all, parts_->run(progress));
   auto sizes =

@@ -232,6 +232,29 @@ TEST(SheetComplex, FlipsAndSplitsKeepBettiNumbersAndStrata) {
   EXPECT_GT(flips, 2000);
 }
 
+// A compact mesh has the triangles of the other one, at each vertex in the same order, and what can
+// be done with that can be done with it.
+TEST(SheetComplex, ACompactMeshIsWhatWasLeft) {
+  expect_kept(500, true, [&](const SheetComplex& all, const auto&, Numbers& random) {
+    SheetComplex mesh = all;
+    collapse_some(mesh, random);
+    SheetComplex compact = mesh;
+    const auto [vertex, triangle] = compact.compact();
+    ASSERT_EQ(compact.triangles(), static_cast<int32_t>(left_of(mesh).size()));
+    for (int32_t v = 0; v < compact.vertices(); ++v) {
+      std::vector<int32_t> expected, found;
+      mesh.for_triangles(vertex[v], [&](int32_t t) { expected.push_back(t); });
+      compact.for_triangles(v, [&](int32_t t) { found.push_back(triangle[t]); });
+      ASSERT_EQ(found, expected);
+      ASSERT_EQ(compact.stratum(v), mesh.stratum(vertex[v]));
+    }
+    for (const auto& [a, b] : compact.edges()) {
+      ASSERT_EQ(compact.can_collapse(a, b), mesh.can_collapse(vertex[a], vertex[b]));
+      ASSERT_EQ(compact.can_flip(a, b), mesh.can_flip(vertex[a], vertex[b]));
+    }
+  });
+}
+
 TEST(SheetComplex, StrataAreThoseOfTheLink) {
   // Three squares at a line: its middle is on a seam, its ends are nodes, and a rim goes round.
   Numbers random(0);

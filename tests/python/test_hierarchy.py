@@ -152,17 +152,7 @@ def test_all_levels_of_random_and_degenerate_inputs_have_the_topology_of_the_com
 
 # --- shapes with a known axis
 
-# Betti numbers of the solids, and what of MEDIAL's facets on clean samples may be added as bridges at most.
-SOLIDS = {
-    "ellipsoid": (1, 0, 0),
-    "oblate": (1, 0, 0),
-    "slab": (1, 0, 0),
-    "shell": (1, 0, 1),
-    "box": (1, 0, 0),
-    "torus": (1, 1, 0),
-    "capsule": (1, 0, 0),
-    "knot": (1, 1, 0),
-}
+# Facets of MEDIAL on clean samples that may be added as bridges.
 MOST_ADDED = 3
 # shape -> n -> distances of the vertices of the clean level to the axis, the other way round: largest
 CURVES = {
@@ -175,15 +165,15 @@ SLAB_EROSION = {2000: (3.1e-3, 2.9e-3), 8000: (1.2e-3, 8e-4)}
 NOISE = (0.1, 0.25)  # of the spacing
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_topology_of_known_solids(sampled, name, seed):
     _, analysis, hierarchy = sampled(name, 2000, seed)
-    assert hierarchy.betti == SOLIDS[name]
+    assert hierarchy.betti == SHAPES[name].betti
     assert_levels_hold(hierarchy, analysis)
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("noise", NOISE)
 def test_topology_of_noisy_solids(sampled, name, noise):
     """The normals are those of the clean surface; noise may tear thin solids, and the levels are like their complex."""
@@ -212,13 +202,13 @@ def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
             assert np.isin(inner.vertex_of, level.vertex_of).all(), (chosen, stricter)
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
 def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
     """`extract` cannot draw the selected facets without area, of which tubes have hundreds. The sixteen levels above
     it are correct, too."""
     _, analysis, hierarchy = sampled(name, n)
-    assert hierarchy.betti == SOLIDS[name] and not Levels(hierarchy, analysis).wrong()
+    assert hierarchy.betti == SHAPES[name].betti and not Levels(hierarchy, analysis).wrong()
     level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}
     drawn = {tuple(g) for g in analysis.extract(side=medial.Side.INNER).generators.tolist()}
     selected = {tuple(g) for g in analysis.edges[analysis.select()].tolist()}

@@ -13,28 +13,9 @@ def icosphere(subdivisions: int = 2, radius: float = 1.0, centre: tuple = (0.0, 
     phi = (1 + np.sqrt(5)) / 2
     corners = [(-1, phi, 0), (1, phi, 0), (-1, -phi, 0), (1, -phi, 0), (0, -1, phi), (0, 1, phi)]
     corners += [(0, -1, -phi), (0, 1, -phi), (phi, 0, -1), (phi, 0, 1), (-phi, 0, -1), (-phi, 0, 1)]
-    faces = [
-        (0, 11, 5),
-        (0, 5, 1),
-        (0, 1, 7),
-        (0, 7, 10),
-        (0, 10, 11),
-        (1, 5, 9),
-        (5, 11, 4),
-        (11, 10, 2),
-    ]
-    faces += [
-        (10, 7, 6),
-        (7, 1, 8),
-        (3, 9, 4),
-        (3, 4, 2),
-        (3, 2, 6),
-        (3, 6, 8),
-        (3, 8, 9),
-        (4, 9, 5),
-    ]
-    faces += [(2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
-    mesh = np.array(corners) / np.hypot(1, phi), np.array(faces, dtype=np.int32)
+    faces = "0 11 5  0 5 1  0 1 7  0 7 10  0 10 11  1 5 9  5 11 4  11 10 2  10 7 6  7 1 8 "
+    faces += "3 9 4  3 4 2  3 2 6  3 6 8  3 8 9  4 9 5  2 4 11  6 2 10  8 6 7  9 8 1"
+    mesh = np.array(corners) / np.hypot(1, phi), np.array(faces.split(), np.int32).reshape(-1, 3)
     for _ in range(subdivisions):
         vertices, triangles = split(mesh)
         mesh = vertices / np.linalg.norm(vertices, axis=1)[:, None], triangles

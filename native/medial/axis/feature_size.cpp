@@ -96,10 +96,7 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
     size[p] = near.nearest(points[p]).distance;
     if (size[p] > extent) size[p] = std::min(size[p], far.nearest(points[p]).distance);
   });
-  std::vector<double> result;
-  result.reserve(at.size());
-  for (const int32_t p : at) result.push_back(size[p]);
-  return result;
+  return rows_of(size, at);
 }
 
 }  // namespace medial

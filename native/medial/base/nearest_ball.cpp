@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/nearest_ball.h"
 
-#include <numeric>
 #include <tuple>
+
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -12,8 +13,7 @@ constexpr int32_t kLeaf = 8;
 }  // namespace
 
 NearestBall::NearestBall(std::span<const Ball> balls)
-    : balls_(balls.begin(), balls.end()), order_(balls.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
+    : balls_(balls.begin(), balls.end()), order_(all_rows(balls.size())) {
   const auto describe = [&](Node& node) {
     for (int32_t i = node.begin; i < node.end; ++i) {
       node.box.add(balls_[order_[i]].centre);

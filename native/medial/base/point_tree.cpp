@@ -60,10 +60,7 @@ PointTree::PointTree(std::span<const Vec3> points) : points_(points.begin(), poi
 
 PointTree PointTree::sorted(std::span<const Vec3> points, const Run& run) {
   const auto order = hilbert_order(points, run);
-  std::vector<Vec3> along;
-  along.reserve(points.size());
-  for (const int32_t id : order) along.push_back(points[id]);
-  PointTree tree(along);
+  PointTree tree(rows_of(points, order));
   tree.ids_.assign(order.begin(), order.end());
   return tree;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // These functions prepare rows of coordinates for computation: finite, distinct, and in a spatially
-// coherent order.
+// coherent order; and select rows of any list.
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -40,5 +41,45 @@ DistinctRows distinct_rows(std::span<const Vec3> rows, const char* what, const R
 
 // Returns the bounding box of the rows.
 Box box_of(std::span<const Vec3> rows);
+
+// Returns the numbers below `count`, ascending.
+inline std::vector<int32_t> all_rows(size_t count) {
+  std::vector<int32_t> rows(count);
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+// Returns the numbers below `count` for which is_kept(number), ascending.
+template <typename IsKept>
+std::vector<int32_t> rows_where(size_t count, const IsKept& is_kept) {
+  std::vector<int32_t> kept;
+  for (int32_t row = 0; row < static_cast<int32_t>(count); ++row) {
+    if (is_kept(row)) kept.push_back(row);
+  }
+  return kept;
+}
+
+template <typename List>
+List rows_of(const List& values, std::span<const int32_t> rows) {
+  List found;
+  found.reserve(rows.size());
+  for (const int32_t row : rows) found.push_back(values[row]);
+  return found;
+}
+
+template <typename T>
+std::vector<T> rows_of(std::span<const T> values, std::span<const int32_t> rows) {
+  std::vector<T> found;
+  found.reserve(rows.size());
+  for (const int32_t row : rows) found.push_back(values[row]);
+  return found;
+}
+
+// Returns the place of each number below `count` among selected rows; -1 for those that are not.
+inline std::vector<int32_t> places_among(std::span<const int32_t> rows, size_t count) {
+  std::vector<int32_t> place(count, -1);
+  for (size_t i = 0; i < rows.size(); ++i) place[rows[i]] = static_cast<int32_t>(i);
+  return place;
+}
 
 }  // namespace medial

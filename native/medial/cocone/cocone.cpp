@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/portable_math.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -157,10 +158,7 @@ void grow(std::span<const Growth> growths, std::vector<uint8_t>& flat) {
   for (const Growth& g : growths) neighbour.push_back({g.neighbour});
   const auto at = rows_containing(std::span<const std::array<int32_t, 1>>(neighbour),
                                   static_cast<int32_t>(flat.size()));
-  std::vector<int32_t> queue;
-  for (int32_t p = 0; p < static_cast<int32_t>(flat.size()); ++p) {
-    if (flat[p] && !at[p].empty()) queue.push_back(p);
-  }
+  auto queue = rows_where(flat.size(), [&](int32_t p) { return flat[p] && !at[p].empty(); });
   while (!queue.empty()) {
     const int32_t q = queue.back();
     queue.pop_back();

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/watertight_surface.h"
 
+#include "base/rows.h"
 #include "base/sort.h"
 
 namespace medial {
-namespace {
-
-std::vector<uint8_t> in_order(const std::vector<uint8_t>& values, std::span<const int32_t> order) {
-  std::vector<uint8_t> result;
-  result.reserve(order.size());
-  for (const int32_t id : order) result.push_back(values[id]);
-  return result;
-}
-
-}  // namespace
-
 std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples,
                               const Run& run) {
   parallel_for(static_cast<int64_t>(triangles.size()), run, [&](int64_t i) {
@@ -33,10 +23,10 @@ WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samp
   const std::vector<int32_t> order = samples_by_row(samples);
   WatertightSurface result;
   result.triangles = in_rows(std::move(boundary.triangles), samples, run);
-  for (const int32_t id : order) result.samples.push_back(samples.row[id]);
-  result.flat = in_order(found.flat, order);
-  result.good = in_order(found.good, order);
-  result.on_surface = in_order(boundary.on_surface, order);
+  result.samples = rows_of(samples.row, order);
+  result.flat = rows_of(found.flat, order);
+  result.good = rows_of(found.good, order);
+  result.on_surface = rows_of(boundary.on_surface, order);
   result.nonmanifold_edges = boundary.nonmanifold_edges;
   result.nonmanifold_vertices = boundary.nonmanifold_vertices;
   result.inner_cells = boundary.inner_cells;

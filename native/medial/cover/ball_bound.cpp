@@ -2,10 +2,10 @@
 #include "cover/ball_bound.h"
 
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "cover/ball_places.h"
 
 namespace medial {
@@ -25,8 +25,7 @@ class Service {
     });
     std::vector<double> away;
     for (const auto& place : places) away.push_back(distance(place.at, balls[largest].centre));
-    std::vector<int32_t> order(places.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int32_t> order = all_rows(places.size());
     std::sort(order.begin(), order.end(),
               [&](int32_t a, int32_t b) { return std::tie(away[b], a) < std::tie(away[a], b); });
     for (size_t i = 0; i < order.size(); ++i) places_[i] = places[order[i]];

@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -37,11 +38,7 @@ std::vector<Gain> gains_of(std::span<const int32_t> ids, std::span<const Ball> b
 }
 
 std::vector<int32_t> ids_in_solid(std::span<const Ball> balls) {
-  std::vector<int32_t> ids;
-  for (size_t i = 0; i < balls.size(); ++i) {
-    if (balls[i].radius > 0) ids.push_back(static_cast<int32_t>(i));
-  }
-  return ids;
+  return rows_where(balls.size(), [&](int32_t i) { return balls[i].radius > 0; });
 }
 
 // This holds the balls chosen so far, and the places that they leave.

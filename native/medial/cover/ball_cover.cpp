@@ -98,8 +98,7 @@ BallChoice choice(std::span<const Ball> balls, const BallCoverOptions& options,
 // each, then how far the balls reach out of the solid, and how far the surface is from them.
 void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
                double reach, const CoveredSolid& solid, SolidLattice& left, const Run& run) {
-  std::vector<Ball> kept;
-  for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
+  const std::vector<Ball> kept = rows_of(balls, cover.chosen);
   const auto places = reach > 0 ? left.places() : std::vector<Vec3>{};
   const auto needed = needed_radii(kept, solid.vertices.points, solid.surface.triangles, places,
                                    kPiece * left.step(), run);

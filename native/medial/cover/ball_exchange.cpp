@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "cover/ball_places.h"
 
 namespace medial {
@@ -44,13 +45,9 @@ class NearestTwo {
   // Returns the places that need the ball in a slot: without it they would be farther from the
   // others than their limits.
   std::vector<int32_t> needing(int32_t slot) const {
-    std::vector<int32_t> places;
-    for (size_t i = 0; i < near_.size(); ++i) {
-      if (near_[i].slot == slot && near_[i].second > limits_[i]) {
-        places.push_back(static_cast<int32_t>(i));
-      }
-    }
-    return places;
+    return rows_where(near_.size(), [&](int32_t i) {
+      return near_[i].slot == slot && near_[i].second > limits_[i];
+    });
   }
 
   bool serves(const Ball& ball, std::span<const int32_t> places) const {
@@ -137,18 +134,15 @@ class Exchanger {
     const SolidLattice rest = rest_without(slot);
     const int64_t own = rest.count(old.centre, old.radius);
     const auto needing = near_.needing(slot);
-    std::vector<int32_t> rows, ids;
-    for (size_t row = 0; row < most_.size(); ++row) {
+    const auto rows = rows_where(most_.size(), [&](int32_t row) {
       const Ball& other = ball(exchange_.ids[row]);
       const int64_t most = most_[row] + (touch(old, other) ? own : 0);
-      if (most <= own || !near_.serves(other, needing)) continue;
-      rows.push_back(static_cast<int32_t>(row));
-      ids.push_back(exchange_.ids[row]);
-    }
-    const auto gains = counts(ids, rest);
+      return most > own && near_.serves(other, needing);
+    });
+    const auto gains = counts(rows_of(exchange_.ids, rows), rest);
     const auto best = std::max_element(gains.begin(), gains.end());
     if (gains.empty() || *best <= own) return false;
-    chosen_[slot] = ids[best - gains.begin()];
+    chosen_[slot] = exchange_.ids[rows[best - gains.begin()]];
     rest_ = rest;
     rest_.remove(ball(chosen_[slot]).centre, ball(chosen_[slot]).radius);
     near_.update(chosen_, slot);

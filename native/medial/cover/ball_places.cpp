@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "base/vec3.h"
 #include "cover/pieces.h"
 
@@ -26,13 +27,6 @@ struct InCell {
     return rank != other.rank ? rank > other.rank : id < other.id;
   }
 };
-
-std::vector<Vec3> picked(std::span<const Vec3> points, std::span<const int32_t> ids) {
-  std::vector<Vec3> result;
-  result.reserve(ids.size());
-  for (const int32_t id : ids) result.push_back(points[id]);
-  return result;
-}
 
 }  // namespace
 
@@ -77,13 +71,13 @@ std::vector<Vec3> surface_places(std::span<const Vec3> vertices, std::span<const
                    centres.push_back((1.0 / 3) * (a + b + c));
                  });
   }
-  return picked(centres, one_per_cell(centres, {}, piece));
+  return rows_of(centres, one_per_cell(centres, {}, piece));
 }
 
 std::vector<Vec3> even_places(std::span<const Vec3> points, double cell, int64_t most) {
   for (;; cell *= kCoarser) {
     const auto ids = one_per_cell(points, {}, cell);
-    if (static_cast<int64_t>(ids.size()) <= most) return picked(points, ids);
+    if (static_cast<int64_t>(ids.size()) <= most) return rows_of(points, ids);
   }
 }
 

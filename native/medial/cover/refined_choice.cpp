@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "cover/ball_bound.h"
 #include "cover/ball_exchange.h"
 #include "cover/ball_places.h"
@@ -34,12 +35,6 @@ std::vector<int32_t> distinct_balls(std::span<const Ball> balls, double cell) {
   return ids;
 }
 
-std::vector<Ball> balls_of(std::span<const Ball> balls, std::span<const int32_t> ids) {
-  std::vector<Ball> result;
-  for (const int32_t id : ids) result.push_back(balls[id]);
-  return result;
-}
-
 // Returns the least bound within which balls serve all places.
 double bound_of(std::span<const BoundedPlace> places, std::span<const Ball> balls, const Run& run) {
   const NearestBall nearest(balls);
@@ -57,7 +52,7 @@ BoundedBalls farthest_first(std::span<const Ball> balls, int64_t count,
                             const Run& run) {
   SolidLattice rest(whole);
   auto chosen = balls_by_distance(balls, count, rest, {run.threads}).chosen;
-  const double bound = bound_of(places, balls_of(balls, chosen), run);
+  const double bound = bound_of(places, rows_of(balls, chosen), run);
   return {bound, std::move(chosen)};
 }
 
@@ -66,7 +61,7 @@ void fill(std::vector<int32_t>& chosen, std::span<const Ball> balls, std::span<c
           int64_t count, const SolidLattice& whole, const Run& run) {
   SolidLattice rest(whole);
   for (const int32_t id : chosen) rest.remove(balls[id].centre, balls[id].radius);
-  const auto some = balls_of(balls, ids);
+  const auto some = rows_of(balls, ids);
   const int64_t more = count - static_cast<int64_t>(chosen.size());
   for (const int32_t row : balls_by_volume(some, more, rest, {run.threads}).chosen) {
     chosen.push_back(ids[row]);
@@ -76,7 +71,7 @@ void fill(std::vector<int32_t>& chosen, std::span<const Ball> balls, std::span<c
 // Orders balls by the volume that each adds to those before it; those that add none come last.
 BallChoice ordered(std::span<const int32_t> chosen, std::span<const Ball> balls, SolidLattice& left,
                    const Run& run) {
-  const auto some = balls_of(balls, chosen);
+  const auto some = rows_of(balls, chosen);
   BallChoice result = balls_by_volume(some, static_cast<int64_t>(some.size()), left, {run.threads});
   std::vector<bool> seen(some.size(), false);
   for (int32_t& row : result.chosen) {
@@ -99,7 +94,7 @@ BallChoice balls_by_bound(std::span<const Ball> balls, int64_t count, double sha
   const auto ids = distinct_balls(balls, left.step());
   if (ids.empty()) return {};
   const auto most = static_cast<int64_t>(std::ceil(share * static_cast<double>(count)));
-  const auto some = balls_of(balls, ids);
+  const auto some = rows_of(balls, ids);
   const auto even = bounded(
       even_places(places, left.step(), std::max(kPlaces, kPlacesOfBall * count)), some, run);
   auto first = farthest_first(balls, most, even, left, run);
@@ -109,7 +104,7 @@ BallChoice balls_by_bound(std::span<const Ball> balls, int64_t count, double sha
   fill(chosen, balls, ids, count, left, run);
   advance(run.progress, 0.4);
   const auto all = bounded(places, some, run);
-  const double bound = bound_of(all, balls_of(balls, chosen), run);
+  const double bound = bound_of(all, rows_of(balls, chosen), run);
   exchange_balls({balls, ids, all, bound}, chosen, left, run);
   advance(run.progress, 0.9);
   return ordered(chosen, balls, left, run);

@@ -2,7 +2,7 @@
 #include "exact/even_creases.h"
 
 #include "base/parallel.h"
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "exact/crease_reach.h"
 
 namespace medial {

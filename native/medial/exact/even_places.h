@@ -3,7 +3,7 @@
 // the two places that a ball touches become one.
 #pragma once
 
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "exact/crisp.h"
 #include "exact/smooth_rim.h"
 #include "remesh/even_mesh.h"

@@ -2,9 +2,9 @@
 #include "inside/face_patches.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/csr.h"
+#include "base/rows.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -62,8 +62,7 @@ bool repeats_a_corner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] |
 void leave_out_repeated(std::vector<Triangle>& faces, Repeated repeated) {
   std::vector<Triangle> sorted(faces);
   for (Triangle& t : sorted) std::sort(t.begin(), t.end());
-  std::vector<int32_t> order(faces.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int32_t> order = all_rows(faces.size());
   std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
     return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b;
   });

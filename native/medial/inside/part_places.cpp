@@ -39,9 +39,8 @@ class BoxTree {
  public:
   // Items without a box have an empty one.
   explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
-    for (size_t i = 0; i < boxes_.size(); ++i) {
-      if (boxes_[i].low.x <= boxes_[i].high.x) items_.push_back(static_cast<int32_t>(i));
-    }
+    items_ =
+        rows_where(boxes_.size(), [&](int32_t i) { return boxes_[i].low.x <= boxes_[i].high.x; });
     const auto describe = [&](Node& node) {
       for (int32_t i = node.begin; i < node.end; ++i) {
         node.box.add(boxes_[items_[i]].low);

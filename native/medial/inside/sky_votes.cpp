@@ -17,8 +17,9 @@ namespace medial {
 namespace {
 
 constexpr int64_t kPlaces = 8192, kLeastPlaces = 4;  // of all patches together, and of each
-constexpr int kRays = 8;                             // from each side of a place
-constexpr double kLeastCosine = 0.1;                 // of a ray with the normal; chosen: unseen
+constexpr int64_t kMostPlaces = 512;  // of each; derived: 2 sqrt(8192 rays) is 2 % of them
+constexpr int kRays = 8;              // from each side of a place
+constexpr double kLeastCosine = 0.1;  // of a ray with the normal; chosen: unseen
 // A smaller share of all rays is chance, for a ray may slip through where faces meet.
 constexpr double kChance = 0.01;  // chosen: unseen
 // Shares of the rays of the side that sees more, and of the other side, that leave no doubt.
@@ -71,8 +72,9 @@ class Voting {
   std::vector<Place> places_of(int64_t patch) const {
     if (!(area_[patch] > 0)) return {};
     const double share = area_[patch] / all_area_;
-    const auto count = std::max(
-        kLeastPlaces, static_cast<int64_t>(std::ceil(share * static_cast<double>(kPlaces))));
+    const auto count =
+        std::clamp(static_cast<int64_t>(std::ceil(share * static_cast<double>(kPlaces))),
+                   kLeastPlaces, kMostPlaces);
     std::vector<Place> places;
     double before = 0;
     for (const int32_t face : faces_[patch]) {

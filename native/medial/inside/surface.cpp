@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/surface.h"
 
-#include <numeric>
 #include <string>
 
 #include "base/rows.h"
@@ -36,8 +35,7 @@ int64_t open_edges(std::span<const Vec3> rows, std::span<const Triangle> triangl
                    const Run& run) {
   require_corners(triangles, rows.size());
   require_finite(rows, "point");
-  std::vector<int32_t> apart(rows.size());
-  std::iota(apart.begin(), apart.end(), 0);
+  std::vector<int32_t> apart = all_rows(rows.size());
   // A surface that is closed by its rows stays closed when some rows become one vertex, because as
   // many edges lead there and back as before.
   if (make_surface(triangles, apart, static_cast<int32_t>(rows.size()), run).closed()) return 0;

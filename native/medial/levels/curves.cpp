@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -25,8 +26,7 @@ double spacing_at(const PointTree& samples, const Vec3& place) {
 
 // Returns the places along a chain after many moves half way to the middle of their neighbours.
 std::vector<Vec3> smoothed(const Chain& chain, std::span<const Vec3> places) {
-  std::vector<Vec3> now, before;
-  for (const int32_t v : chain.vertices) now.push_back(places[v]);
+  std::vector<Vec3> now = rows_of(places, chain.vertices), before;
   const size_t last = now.size() - 1;
   for (int i = 0; i < kSmoothings; ++i) {
     before = now;

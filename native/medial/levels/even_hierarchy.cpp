@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "base/rows.h"
 #include "base/sort_unique.h"
 #include "collapse/fringe.h"
 #include "levels/burn_down.h"
@@ -63,12 +64,12 @@ int32_t edge_between(std::span<const Edge> edges, int32_t a, int32_t b) {
 // and facets are its own.
 InnerComplex complex_of(const Level& level, const InnerComplex& of) {
   InnerComplex complex;
-  for (const int32_t v : level.vertex_of) complex.cell.push_back(of.cell[v]);
+  complex.cell = rows_of(of.cell, level.vertex_of);
   complex.position.assign(level.vertices.begin(), level.vertices.end());
   complex.radius.assign(level.radius.begin(), level.radius.end());
   const std::vector<Edge> edges = edges_of(level);
   complex.ends.assign(edges.begin(), edges.end());
-  for (const int32_t f : level.facet_of) complex.generators.push_back(of.generators[f]);
+  complex.generators = rows_of(of.generators, level.facet_of);
   complex.dual.resize(level.facet_of.size());
   std::iota(complex.dual.begin(), complex.dual.end(), 0);
   complex.offsets.assign(level.face_offsets.begin(), level.face_offsets.end());
@@ -127,11 +128,9 @@ void share_samples(const Parts& of, Parts& made) {
 }
 
 void keep_values(const Parts& of, const Level& level, Parts& made) {
-  for (const int32_t f : level.facet_of) {
-    made.sine.push_back(of.sine[f]);
-    made.rho.push_back(of.rho[f]);
-    made.chosen.push_back(of.chosen[f]);
-  }
+  made.sine = rows_of(of.sine, level.facet_of);
+  made.rho = rows_of(of.rho, level.facet_of);
+  made.chosen = rows_of(of.chosen, level.facet_of);
   made.crisp = {
       made.complex.position, made.complex.radius, {level.place.begin(), level.place.end()}};
   for (const Placing place : level.place) made.on_crease.push_back(place >= Placing::crease);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/even_level.h"
 
-#include "base/selected_rows.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -27,11 +27,9 @@ class EvenWriter {
     write_facets(rows);
     write_vertices(run);
     EvenVertices of_mesh;
-    for (const int32_t v : vertices_) {
-      of_mesh.target.push_back(e_.target[v]);
-      of_mesh.held.push_back(e_.held[v]);
-      of_mesh.is_end.push_back(e_.mesh.stays(v));
-    }
+    for (const int32_t v : vertices_) of_mesh.is_end.push_back(e_.mesh.stays(v));
+    of_mesh.target = rows_of(e_.target, vertices_);
+    of_mesh.held = rows_of(e_.held, vertices_);
     return of_mesh;
   }
 
@@ -68,8 +66,7 @@ class EvenWriter {
   }
 
   void write_facets(std::span<const int32_t> rows) {
-    std::vector<int32_t> source;
-    for (const int32_t t : rows) source.push_back(e_.source[t]);
+    const std::vector<int32_t> source = rows_of(e_.source, rows);
     level_.generators = rows_of(level_.generators, source);
     level_.facet_of = rows_of(level_.facet_of, source);
     level_.theta = rows_of(level_.theta, source);
@@ -79,8 +76,7 @@ class EvenWriter {
   }
 
   void write_vertices(const Run& run) {
-    std::vector<int32_t> origin;
-    for (const int32_t v : vertices_) origin.push_back(e_.origin[v]);
+    const std::vector<int32_t> origin = rows_of(e_.origin, vertices_);
     level_.vertex_of = rows_of(level_.vertex_of, origin);
     level_.exact = rows_of(level_.exact, origin);
     level_.exact_radius = rows_of(level_.exact_radius, origin);

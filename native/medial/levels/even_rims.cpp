@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/even_rims.h"
 
-#include <numeric>
-
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "exact/even_places.h"
 #include "levels/even_level.h"
 #include "remesh/remesh.h"
@@ -41,9 +39,7 @@ EvenMesh mesh_of(const Level& level, const EvenVertices& known) {
   }
   std::vector<uint8_t> is_node = rows_of(known.is_end, level.vertex_of);
   for (const int32_t v : level.points) is_node[v] = 1;
-  std::vector<int32_t> origin(static_cast<size_t>(count)), source(triangles.size());
-  std::iota(origin.begin(), origin.end(), 0);
-  std::iota(source.begin(), source.end(), 0);
+  std::vector<int32_t> source = all_rows(triangles.size());
   std::vector<Vec3> normal;
   for (const auto& [a, b, c] : triangles) {
     const auto& p = level.vertices;
@@ -52,7 +48,7 @@ EvenMesh mesh_of(const Level& level, const EvenVertices& known) {
   return {SheetComplex(count, std::move(triangles), level.wires, is_node),
           {level.vertices.begin(), level.vertices.end()},
           rows_of(known.target, level.vertex_of),
-          std::move(origin),
+          all_rows(level.vertices.size()),
           rows_of(known.held, level.vertex_of),
           std::move(source),
           std::move(normal)};
@@ -86,8 +82,7 @@ void smooth_new_rims(Level& level, const Hierarchy::Parts& h, const Alive& alive
                               }};
   for (int round = 0; round < kRimRounds; ++round) remesh(even, options, run);
   if (!faces) return void(write_even(even, {}, {}, h, level, run));
-  std::vector<Edge> generators;
-  for (const int32_t f : level.facet_of) generators.push_back(h.complex.generators[f]);
+  const auto generators = rows_of(h.complex.generators, level.facet_of);
   EvenPlaces places(even, *faces, generators, level.wires, run);
   places.start_from(level.place, level.radius);
   places.finish();

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/even_sheets.h"
 
-#include <numeric>
-
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "exact/even_creases.h"
 #include "exact/even_places.h"
 #include "exact/simplices.h"
@@ -37,9 +35,7 @@ class EvenSheets {
         progress_(run.progress) {}
 
   EvenVertices make() {
-    for (size_t f = 0; f < level_.facet_of.size(); ++f) {
-      generators_.push_back(h_.complex.generators[level_.facet_of[f]]);
-    }
+    generators_ = rows_of(h_.complex.generators, level_.facet_of);
     EvenMesh even = start();
     if (samples_) hold_on_creases(even, *samples_, generators_, hole_, radius_, run_);
     std::vector<double> within(hole_);
@@ -78,8 +74,7 @@ class EvenSheets {
 
   EvenMesh start() {
     Simplices simplices = simplices_of(level_, run_);
-    std::vector<int32_t> origin(level_.vertices.size());
-    std::iota(origin.begin(), origin.end(), 0);
+    std::vector<int32_t> origin = all_rows(level_.vertices.size());
     std::vector<Vec3> position(level_.vertices.begin(), level_.vertices.end());
     radius_.assign(level_.radius.begin(), level_.radius.end());
     for (const int32_t f : simplices.centres) {
@@ -185,7 +180,7 @@ class EvenSheets {
   const SamplesOnFaces* samples_;  // null if no faces give places
   Run run_;
   Progress* progress_;
-  std::vector<Edge> generators_;                    // per facet of the level: samples
+  Array<Edge> generators_;                          // per facet of the level: samples
   std::vector<double> hole_, radius_, facet_area_;  // per vertex at the start
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/round_limbs.h"
 
+#include "base/rows.h"
 #include "base/sort.h"
 #include "base/sort_unique.h"
 #include "levels/curves.h"
@@ -66,14 +67,13 @@ class Shedder {
 
   // Returns the chains that are removed.
   std::vector<int32_t> shed() && {
-    std::vector<int32_t> chain_from(carried_.size(), -1), loose, gone;
+    std::vector<int32_t> chain_from(carried_.size(), -1), gone;
     for (size_t c = 0; c < chains_.size(); ++c) {
       ++carried_[inner_end(chains_[c])];
       chain_from[outer_end(chains_[c])] = static_cast<int32_t>(c);
     }
-    for (size_t c = 0; c < chains_.size(); ++c) {
-      if (carried_[outer_end(chains_[c])] == 0) loose.push_back(static_cast<int32_t>(c));
-    }
+    auto loose =
+        rows_where(chains_.size(), [&](int32_t c) { return carried_[outer_end(chains_[c])] == 0; });
     while (!loose.empty()) {
       const int32_t c = loose.back(), end = inner_end(chains_[c]);
       loose.pop_back();
@@ -107,8 +107,7 @@ void shed_flat_limbs(const Hierarchy::Parts& h, const LevelOptions& options, Ali
                      const Run& run) {
   const Forest forest = dangling(h, options, alive, run);
   if (forest.edges.empty()) return;
-  std::vector<Vec3> places;
-  for (const int32_t v : forest.vertices) places.push_back(h.complex.position[v]);
+  const auto places = rows_of(h.complex.position, forest.vertices);
   const auto chains = chains_of(forest.wires, forest.is_root);
   const auto curves = fit_curves(chains, places, *h.samples, run);
   for (const int32_t c : Shedder(forest, chains, curves).shed()) {

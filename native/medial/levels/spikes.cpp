@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/spikes.h"
 
-#include <numeric>
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -84,8 +84,7 @@ Array<float> evened(const SheetGraph& graph, Array<float> value, const Run& run)
 
 // Returns the facets in descending order of their values.
 std::vector<int32_t> descending(std::span<const float> value) {
-  std::vector<int32_t> order(value.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int32_t> order = all_rows(value.size());
   std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
     return value[a] != value[b] ? value[a] > value[b] : a < b;
   });

@@ -5,13 +5,13 @@
 
 #include <climits>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 
 #include "base/cgal.h"
 #include "base/insertion_order.h"
 #include "base/polygon_edges.h"
+#include "base/rows.h"
 #include "base/text.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -103,8 +103,7 @@ std::vector<Point2> flattened(std::span<const Vec3> corners) {
 // Makes one place of all corners of a polygon that coincide in the plane.
 struct Places {
   explicit Places(std::span<const Point2> points) : of_corner(points.size()) {
-    Ring order(points.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int32_t> order = all_rows(points.size());
     std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
       return points[a] != points[b] ? points[a] < points[b] : a < b;
     });
@@ -388,8 +387,7 @@ std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   }
   std::vector<Triangle> cut;
   if (!has_an_extent(corners)) {
-    Ring ring(corners.size());
-    std::iota(ring.begin(), ring.end(), 0);
+    std::vector<int32_t> ring = all_rows(corners.size());
     cut_every_other_corner(std::move(ring), cut);
     return cut;
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "base/rows.h"
 #include "base/union_find.h"
 #include "base/vec3.h"
 #include "reduce/sheet_locks.h"
@@ -79,9 +79,8 @@ std::vector<int32_t> planes_of(const SphereMesh& mesh, const std::vector<InnerEd
     beside[edge.triangles[1]].push_back(edge.triangles[0]);
   }
   std::vector<double> area(count);
-  std::vector<int32_t> order(count), plane(count, -1);
+  std::vector<int32_t> order = all_rows(count), plane(count, -1);
   for (size_t t = 0; t < count; ++t) area[t] = twice_area(mesh, mesh.triangles[t]);
-  std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int32_t a, int32_t b) { return area[a] > area[b]; });
   for (const int32_t first : order) {

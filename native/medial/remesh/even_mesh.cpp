@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include "base/selected_rows.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -72,7 +72,6 @@ class MovedStar {
   }
 
  private:
-  static constexpr size_t kUsualStar = 12;  // triangles that need no memory from the heap
   struct Moved {
     int32_t triangle, next, last;  // its corners after the vertex
     Vec3 normal;
@@ -119,7 +118,7 @@ class MovedStar {
   }
 
   const EvenMesh& e_;
-  boost::container::small_vector<Moved, kUsualStar> star_;
+  boost::container::small_vector<Moved, 12> star_;
   bool keeps_sides_ = true;
 };
 

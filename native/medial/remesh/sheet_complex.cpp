@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/selected_rows.h"
+#include "base/rows.h"
 
 namespace medial {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
-#include "base/selected_rows.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {

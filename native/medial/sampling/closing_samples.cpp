@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/closing_samples.h"
 
-#include <numeric>
 #include <optional>
 
 #include "base/random.h"
@@ -66,8 +65,7 @@ class Thinning {
   }
 
   std::vector<int32_t> operator()(uint64_t seed) {
-    std::vector<int32_t> order(disks_.size() - kept_), stay;
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int32_t> order = all_rows(disks_.size() - kept_), stay;
     const auto rank = [&](int32_t i) { return scrambled(seed ^ scrambled(uint64_t(i))); };
     std::sort(order.begin(), order.end(), [&](int32_t i, int32_t j) { return rank(i) < rank(j); });
     for (const int32_t i : order) {

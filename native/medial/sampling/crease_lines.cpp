@@ -4,10 +4,7 @@
 namespace medial {
 
 CreaseLines::CreaseLines(const TriangleMesh& mesh, const Creases& creases)
-    : mesh_(mesh), creases_(creases) {
-  for (size_t e = 0; e < creases.edges.size(); ++e) {
-    if (creases.edges[e].crease != Crease::none) order_.push_back(static_cast<int32_t>(e));
-  }
+    : mesh_(mesh), creases_(creases), order_(crease_edges(creases)) {
   const auto ends = [&](int32_t e) -> std::array<Vec3, 2> {
     return {mesh.points[creases.edges[e].ends[0]], mesh.points[creases.edges[e].ends[1]]};
   };

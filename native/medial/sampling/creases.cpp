@@ -24,10 +24,7 @@ std::vector<int32_t> weld(std::span<const Vec3> vertices, std::span<const Triang
   for (const Triangle& t : triangles) {
     for (const int32_t corner : t) used[corner] = 1;
   }
-  std::vector<int32_t> order;
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    if (used[i]) order.push_back(static_cast<int32_t>(i));
-  }
+  auto order = rows_where(vertices.size(), [&](int32_t i) { return used[i] != 0; });
   const auto key = [&](int32_t i) {
     const Vec3& p = vertices[i];
     return std::tie(p.x, p.y, p.z);
@@ -183,14 +180,6 @@ void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, c
   counts_to_offsets(creases.first_edge);
 }
 
-std::vector<int32_t> crease_edges(const Creases& creases) {
-  std::vector<int32_t> ids;
-  for (size_t i = 0; i < creases.edges.size(); ++i) {
-    if (creases.edges[i].crease != Crease::none) ids.push_back(static_cast<int32_t>(i));
-  }
-  return ids;
-}
-
 bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t after, double angle) {
   const Vec3 in = normalized(mesh.points[at] - mesh.points[before]);
   const Vec3 out = normalized(mesh.points[after] - mesh.points[at]);
@@ -318,6 +307,11 @@ std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const E
     }
   }
   return marked;
+}
+
+std::vector<int32_t> crease_edges(const Creases& creases) {
+  return rows_where(creases.edges.size(),
+                    [&](int32_t e) { return creases.edges[e].crease != Crease::none; });
 }
 
 std::vector<int32_t> creases_at_points(const TriangleMesh& mesh, const Creases& creases) {

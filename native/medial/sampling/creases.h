@@ -66,6 +66,9 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
 std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
                                const TriangleMesh& mesh, std::span<const Triangle> triangles);
 
+// Returns the edges that are creases, ascending.
+std::vector<int32_t> crease_edges(const Creases& creases);
+
 // Returns how many creases end at each point.
 std::vector<int32_t> creases_at_points(const TriangleMesh& mesh, const Creases& creases);
 

@@ -30,11 +30,7 @@ class Mitres {
       : mesh_(mesh), creases_(creases), creases_at_(creases_at_points(mesh, creases)) {}
 
   void mark() {
-    std::vector<int32_t> sharp;
-    for (size_t e = 0; e < creases_.edges.size(); ++e) {
-      if (creases_.edges[e].crease != Crease::none) sharp.push_back(static_cast<int32_t>(e));
-    }
-    for (const int32_t e : sharp) {
+    for (const int32_t e : crease_edges(creases_)) {
       for (const int32_t end : creases_.edges[e].ends) follow(e, end);
     }
   }

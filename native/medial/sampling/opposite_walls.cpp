@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/opposite_walls.h"
 
-#include <numeric>
-
+#include "base/rows.h"
 #include "sampling/closest_on_flat.h"
 
 namespace medial {
@@ -23,8 +22,10 @@ constexpr double kTight = 0.5;  // of the reach, up to which places are tight; c
 }  // namespace
 
 OppositeWalls::OppositeWalls(const CurvedSurface& surface, const Creases& creases)
-    : surface_(surface), creases_(creases), mesh_(surface.mesh()), order_(mesh_.triangles.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
+    : surface_(surface),
+      creases_(creases),
+      mesh_(surface.mesh()),
+      order_(all_rows(mesh_.triangles.size())) {
   std::vector<Box> boxes(order_.size());
   for (size_t t = 0; t < boxes.size(); ++t) {
     for (const int32_t corner : mesh_.triangles[t]) boxes[t].add(mesh_.points[corner]);

@@ -2,7 +2,7 @@
 #include "sampling/paired_samples.h"
 
 #include "base/random.h"
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "sampling/mirrored_rows.h"
 
 namespace medial {
@@ -357,8 +357,7 @@ bool PairedSamples::add_member(const FixedSample& sample) {
 }
 
 std::vector<FixedSample> PairedSamples::sorted() && {
-  std::vector<int32_t> order(samples_.size());
-  for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
+  std::vector<int32_t> order = all_rows(samples_.size());
   std::stable_sort(order.begin(), order.end(),
                    [&](int32_t a, int32_t b) { return samples_[a].kind < samples_[b].kind; });
   const std::vector<int32_t> place = places_among(order, order.size());

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
+#include "base/rows.h"
 #include "scan/local_quadric.h"
 
 namespace medial {
@@ -75,10 +76,7 @@ std::vector<int32_t> lone_points(const PointTree& tree, const Run& run) {
     }
     return false;
   };
-  std::vector<int32_t> lone;
-  for (int32_t i = 0; i < tree.size(); ++i) {
-    if (far[i] && !is_known(i)) lone.push_back(i);
-  }
+  const auto lone = rows_where(tree.size(), [&](int32_t i) { return far[i] && !is_known(i); });
   return lone;
 }
 

@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "base/rows.h"
+
 namespace medial {
 namespace {
 
@@ -55,10 +57,7 @@ std::vector<Edge> labels_of(const Facets& facets, const Run& run) {
     const auto& [p, q] = facets.input.generators[f];
     labels[f] = label_between(facets.input.patches[p], facets.input.patches[q]);
   });
-  std::vector<int32_t> unknown;
-  for (int32_t f = 0; f < facets.count(); ++f) {
-    if (labels[f] == kUnknown) unknown.push_back(f);
-  }
+  auto unknown = rows_where(facets.count(), [&](int32_t f) { return labels[f] == kUnknown; });
   for (size_t before = unknown.size() + 1; !unknown.empty() && unknown.size() < before;) {
     before = unknown.size();
     std::vector<std::pair<int32_t, Edge>> found;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "structure/places.h"
 
-#include <numeric>
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -25,8 +25,7 @@ void arrange(std::span<const Placed> things, std::span<int32_t> ids, int axis) {
 }  // namespace
 
 std::vector<int32_t> order_of(std::span<const Placed> things) {
-  std::vector<int32_t> ids(things.size());
-  std::iota(ids.begin(), ids.end(), 0);
+  std::vector<int32_t> ids = all_rows(things.size());
   std::stable_sort(ids.begin(), ids.end(),
                    [&](int32_t a, int32_t b) { return things[a].keys < things[b].keys; });
   for (size_t begin = 0, end = 0; begin < ids.size(); begin = end) {

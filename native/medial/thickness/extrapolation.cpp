@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/csr.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
@@ -73,10 +74,7 @@ class Spreading {
   // Starts from the samples that have a value, nearest first.
   void spread() {
     std::priority_queue<Way, std::vector<Way>, ByLength> ways;
-    std::vector<int32_t> known;
-    for (size_t p = 0; p < values_.size(); ++p) {
-      if (values_[p] < HUGE_VAL) known.push_back(static_cast<int32_t>(p));
-    }
+    auto known = rows_where(values_.size(), [&](int32_t p) { return values_[p] < HUGE_VAL; });
     for (const int32_t p : known) go_on({0, p, values_[p], p}, ways);
     finish(ways);
   }

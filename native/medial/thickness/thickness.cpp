@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thickness/thickness.h"
 
-#include <numeric>
-
 #include "base/nearest_ball.h"
+#include "base/rows.h"
 #include "thickness/extrapolation.h"
 
 namespace medial {
@@ -17,8 +16,7 @@ struct Values {
 
 std::vector<int32_t> selected_edges(const Thresholds& thresholds, Side side, const Facets& facets,
                                     const Run& run) {
-  std::vector<int32_t> all(static_cast<size_t>(facets.edges.count()));
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<int32_t> all = all_rows(facets.edges.count());
   return selected(Selection({.thresholds = thresholds, .side = side}, facets), all, run);
 }
 
@@ -133,14 +131,8 @@ WallThickness thickness(const ThicknessInput& input, const ThicknessOptions& opt
   const Values found = options.mode == ThicknessMode::scan
                            ? by_nearest_balls(options, samples, facets, run)
                            : by_tangent_balls(input, options, samples, facets, run);
-  WallThickness result;
-  result.values.reserve(samples.row.size());
-  result.measured.reserve(samples.row.size());
-  for (const int32_t id : samples_by_row(samples)) {
-    result.values.push_back(found.lengths[id]);
-    result.measured.push_back(found.measured[id]);
-  }
-  return result;
+  const std::vector<int32_t> order = samples_by_row(samples);
+  return {rows_of(found.lengths, order), rows_of(found.measured, order)};
 }
 
 }  // namespace medial

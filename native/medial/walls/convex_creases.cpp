@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/point_tree.h"
+#include "base/rows.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -55,9 +56,8 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
       jagged_(faces.creases().edges.size(), 0),
       fragment_(faces.creases().edges.size(), 0) {
   const auto& edges = faces.creases().edges;
-  for (size_t e = 0; e < edges.size(); ++e) {
-    if (!faces.is_convex_crease(static_cast<int32_t>(e))) continue;
-    segments_.push_back(static_cast<int32_t>(e));
+  segments_ = rows_where(edges.size(), [&](int32_t e) { return faces.is_convex_crease(e); });
+  for (const int32_t e : segments_) {
     for (const int32_t end : edges[e].ends) corner_[end] = faces.creases().corner[end];
   }
   if (segments_.empty()) return;
@@ -93,13 +93,9 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
 // A bend that has another one close by is part of a zigzag, and so is an end or a meeting of
 // creases there, unless three patches meet in it.
 void ConvexCreases::find_corners(std::span<const int32_t> patch, double spacing) {
-  std::vector<int32_t> bends;
-  std::vector<Vec3> places;
-  for (size_t v = 0; v < corner_.size(); ++v) {
-    if (!corner_[v] || meets_three(static_cast<int32_t>(v), patch)) continue;
-    bends.push_back(static_cast<int32_t>(v));
-    places.push_back(faces_.mesh().points[v]);
-  }
+  const auto bends = rows_where(
+      corner_.size(), [&](int32_t v) { return corner_[v] != 0 && !meets_three(v, patch); });
+  const auto places = rows_of(faces_.mesh().points, bends);
   const PointTree tree = PointTree::sorted(places, {});
   std::vector<Neighbour> near;
   std::vector<Vec3> jagged;

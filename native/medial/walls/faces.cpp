@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/faces.h"
 
-#include <numeric>
-
 #include "base/rounding.h"
-#include "base/selected_rows.h"
+#include "base/rows.h"
 #include "base/union_find.h"
 #include "walls/closest_place.h"
 #include "walls/least_distance.h"
@@ -22,9 +20,7 @@ constexpr double kFlat = 1e-12;  // derived: rounding
 TriangleMesh mesh_in(const Frame& frame, const FacesInput& input, const Run& run) {
   if (frame.is_plain()) return make_mesh(input.vertices, input.triangles, run);
   TriangleMesh mesh = make_mesh(frame.inward(input.vertices), input.triangles, run);
-  std::vector<Vec3> given;
-  for (const int32_t row : mesh.row) given.push_back(input.vertices[row]);
-  mesh.rounding = frame.inward(rounding_of(given));
+  mesh.rounding = frame.inward(rounding_of(rows_of(input.vertices, mesh.row)));
   return mesh;
 }
 
@@ -106,8 +102,7 @@ void Faces::find_fans() {
 }
 
 void Faces::build_tree_of_faces() {
-  order_.resize(mesh_.triangles.size());
-  std::iota(order_.begin(), order_.end(), 0);
+  order_ = all_rows(mesh_.triangles.size());
   std::vector<Vec3> controls;
   const auto describe = [&](Node& node) {
     node.box = box_round({order_.data() + node.begin, order_.data() + node.end}, controls);
@@ -181,9 +176,7 @@ Foot Faces::lifted(const Foot& flat, const Vec3& from) const {
   return {flat.triangle, flat.at, point, medial::distance(from, point)};
 }
 
-std::vector<int32_t> Faces::places_in_tree() const {
-  return places_among(order_, order_.size());
-}
+std::vector<int32_t> Faces::places_in_tree() const { return places_among(order_, order_.size()); }
 
 Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
                           const Vec3& from) {
