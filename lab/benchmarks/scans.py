@@ -29,7 +29,6 @@ from medial_axis.core.axis.compute import compute  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
 from medial_axis.core.files.read_shape import read_shape  # noqa: E402
 from medial_axis.core.settings import Prepare, Settings  # noqa: E402
-from medial_axis.core.thickness.picture import png  # noqa: E402
 from support.shapes import SHAPES, Cyclide, HoledPlate, RoundCone  # noqa: E402
 
 BALL, RING = (1, 0, 0), (1, 1, 0)
@@ -45,7 +44,7 @@ NOISE = (0.0, 0.25, 0.5, 1.0)
 MESHES = ["3holes.off", "dilo.off", "hand_closed.obj", "knot1.off", "mannequin.off"]
 MESHES += ["rocker-arm.off", "screwdriver.off", "spot_low.obj"]
 COUNT, COUNT_OF_MESHES = 8000, 20_000
-DRAWN, TILE = 4000, 260
+DRAWN = 4000
 # Parts of the sentences that name a cause of wrong numbers.
 CAUSES = (
     "noise of about",
@@ -150,28 +149,16 @@ def bold(text: str, found, truth: tuple[int, int, int]) -> str:
 
 
 def draw(path: Path, names: list[str], noise: float = 0.5) -> None:
-    """Dots: the points grey, the vertices of Clean dark; above of the points as they are, below prepared."""
-    page = np.full((2 * TILE, len(names) * TILE, 3), 255, np.uint8)
-    for column, name in enumerate(names):
+    """Columns of shapes: above the axis of the points as they are, below that of the prepared ones."""
+    sys.path.insert(0, str(_module.ROOT / "lab/pictures"))
+    from scan_sheet import drawn, png
+
+    columns = []
+    for name in names:
         points, _ = noisy(SOLIDS[name][0], noise, 1, DRAWN)
-        along = np.argsort(np.ptp(points, axis=0))[::-1][:2]
-        for line, prepare in enumerate((Prepare.OFF, Prepare.AUTOMATIC)):
-            found, text = betti_of(points, prepare)
-            print(name, prepare.value, text, file=sys.stderr, flush=True)
-            tile = page[line * TILE : (line + 1) * TILE, column * TILE : (column + 1) * TILE]
-            dots(tile, points[:, along], points[:, along], (215, 215, 215))
-            if found is not None:
-                dots(tile, found.axis.vertices[:, along], points[:, along], (40, 50, 110))
-    path.write_bytes(png(page))
-
-
-def dots(tile: np.ndarray, places: np.ndarray, frame: np.ndarray, colour: tuple) -> None:
-    """Two pixels wide, where the frame fills most of the tile."""
-    middle, wide = (frame.min(axis=0) + frame.max(axis=0)) / 2, np.ptp(frame, axis=0).max()
-    at = (TILE / 2 + (places - middle) / wide * 0.92 * TILE).astype(int)
-    x, y = np.clip(at, 0, TILE - 2).T
-    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        tile[TILE - 2 - y + i, x + j] = colour
+        both = [drawn(points, prepare, name) for prepare in (Prepare.OFF, Prepare.AUTOMATIC)]
+        columns.append(np.concatenate(both))
+    path.write_bytes(png(np.concatenate(columns, axis=1)))
 
 
 def main() -> None:

@@ -3,12 +3,13 @@
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/contact_sheet.py -- \\
         --zip dist/medial_axis-VERSION.zip --output pictures [--only cube igea ...] [--forms published clean curve]
-        [--spikes 0 0.5 1]
+        [--spikes 0 0.5 1] [--wrap]
 
 The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With
---forms there is a row per mesh and a column per form, with --spikes a column per value of Spikes. Every picture is
-rendered by itself; ImageMagick's `montage` puts them side by side. What cannot be computed is printed with what the
-add-on says. Files come from the folder in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.
+--forms there is a row per mesh and a column per form, with --spikes a column per value of Spikes, with --wrap a mesh as
+it is and wrapped. Every picture is rendered by itself; ImageMagick's `montage` puts them side by side. What cannot be
+computed is printed with what the add-on says. Files come from the folder in MEDIAL_AXIS_TEST_DATA, the bull from
+Debian's `assimp-testmodels`; those that are not there are named and left out.
 """
 
 import argparse
@@ -86,6 +87,7 @@ FILES = {
     "cactus": ("cactus.xyz", 0),
     "distcap": ("distcap.xyz", 90),
     "lion": ("lion_scan.ply", 0),
+    "bull": ("WusonOBJ.obj", 90),
 }
 
 
@@ -97,6 +99,9 @@ def main():
         return
     if arguments.spikes:
         columns(arguments, "spikes", {f"{value:g}": {"spike": value} for value in arguments.spikes})
+        return
+    if arguments.wrap:
+        columns(arguments, "wrap", {"as it is": {}, "wrapped": {"sides": "WRAP"}})
         return
     for sheet, made in (("primitives", PRIMITIVES), ("meshes", FILES)):
         folder = arguments.output / sheet
@@ -128,6 +133,7 @@ def parse():
     parser.add_argument("--only", nargs="+", default=[])
     parser.add_argument("--forms", nargs="+", choices=["clean", "published", "curve"])
     parser.add_argument("--spikes", nargs="+", type=float)
+    parser.add_argument("--wrap", action="store_true")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 

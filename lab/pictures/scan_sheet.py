@@ -77,9 +77,12 @@ def drawn_faces(points: np.ndarray, triangles: np.ndarray, prepare: Prepare) -> 
 
 def before(points: np.ndarray, shown) -> np.ndarray:
     """(h, w, 3) uint8: an axis before points."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    size = float(np.linalg.norm(high - low))
-    focus = (low + high) / 2, 0.4 * size
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    seen = points @ (ways := np.stack(across())).T
+    focus = (
+        (seen.min(axis=0) + seen.max(axis=0)) / 2 @ ways,
+        0.54 * float(np.ptp(seen, axis=0).max()),
+    )
     axis = pictured(*soup(shown, size), focus)
     behind = pictured(*dots(points, DOT * size), focus)
     return np.where((axis == 255).all(axis=2, keepdims=True), behind, axis)
