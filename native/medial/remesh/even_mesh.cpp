@@ -2,7 +2,6 @@
 #include "remesh/even_mesh.h"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 
 #include "base/rows.h"
 
@@ -42,6 +41,7 @@ class MovedStar {
  public:
   // Triangles at the edge to `without` vanish, and keep no side.
   MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, int32_t without = -1) : e_(even) {
+    star_.reserve(12);  // most stars have no more
     e_.mesh.for_triangles(v, [&](int32_t t) {
       if (!keeps_sides_) return;
       const Triangle& corners = e_.mesh.triangle(t);
@@ -118,7 +118,7 @@ class MovedStar {
   }
 
   const EvenMesh& e_;
-  boost::container::small_vector<Moved, 12> star_;
+  std::vector<Moved> star_;
   bool keeps_sides_ = true;
 };
 
