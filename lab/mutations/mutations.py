@@ -784,6 +784,81 @@ MUTATIONS = (
         "the corners of faces alone are held",
         python=("test_ball_cover.py",),
     ),
+    # ---- remesh
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "  for (auto& [a, b] : wires_) a = vertex[a], b = vertex[b];\n",
+        "",
+        "wires of a compact mesh keep their numbers",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "  if (count != at_edge) return false;",
+        "  if (count < at_edge) return false;",
+        "links may have more in common than the edge",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "  return !closes;",
+        "  return true;",
+        "collapses close the last triangle of a cavity",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "uses(from, third) == 1 && uses(to, third) == 1",
+        "uses(from, third) == 1 && uses(to, third) == 0",
+        "the last triangle between three rims goes",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "stratum_[from] > stratum_[to]",
+        "false",
+        "vertices leave their curve for a sheet",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "  if (is_inside) return;",
+        "  return;",
+        "strata stay as they were after a collapse along a curve",
+    ),
+    Mutation(
+        "remesh/sheet_complex.cpp",
+        "  return uses(c, d) == 0 && !is_wired(c, d);",
+        "  return uses(c, d) == 0;",
+        "flips make an edge where a wire is",
+    ),
+    Mutation(
+        "remesh/remesh.cpp",
+        "return cosine[0] * sine[1] + cosine[1] * sine[0] < 0;",
+        "return cosine[0] * sine[1] + cosine[1] * sine[0] > 0;",
+        "edges flip away from the better diagonal",
+    ),
+    Mutation(
+        "remesh/even_mesh.cpp",
+        "return turn > kMostTurn;",
+        "return turn > -2;",
+        "changes turn triangles over",
+    ),
+    Mutation(
+        "remesh/even_mesh.cpp",
+        "sign * dot(e_.normal[one.triangle], e_.normal[other]) >= kFold;",
+        "false;",
+        "sheets fold",
+        python=("test_even.py",),
+    ),
+    Mutation(
+        "remesh/target_length.cpp",
+        "0.5 * (std::abs(sum) + deviator)",
+        "0.5 * std::abs(sum)",
+        "only the mean curvature counts",
+    ),
+    Mutation(
+        "remesh/target_length.cpp",
+        "width[before[*v]] = std::max(width[before[*v]], width[*v]);",
+        "width[before[*v]] = width[*v];",
+        "a rim is as far away as any vertex",
+        python=("test_even.py",),
+    ),
     # ---- reduce
     Mutation(
         "reduce/sphere_complex.cpp",

@@ -123,8 +123,7 @@ class Remesher {
   }
 
   bool collapse(int32_t from, int32_t to) {
-    const bool can = mesh_.stratum(from) <= mesh_.stratum(to) && keeps_line(from, to) &&
-                     stays_short(from, to) && can_collapse(e_, from, to);
+    const bool can = keeps_line(from, to) && stays_short(from, to) && can_collapse(e_, from, to);
     if (can) medial::collapse(e_, from, to, moved_);
     return can;
   }

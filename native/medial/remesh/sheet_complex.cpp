@@ -99,7 +99,7 @@ Stratum SheetComplex::find_stratum(int32_t v) const {
   if (!has_triangles(v)) return Stratum::node;
   const auto ends = curve_neighbours(v);
   if (ends.empty()) return link_is_circle(v) ? Stratum::sheet : Stratum::node;
-  if (ends.size() != 2 || uses(v, ends[0]) != uses(v, ends[1])) return Stratum::node;
+  if (ends.size() != 2) return Stratum::node;
   return link_is_arcs(v, ends[0], ends[1]) ? Stratum::curve : Stratum::node;
 }
 
