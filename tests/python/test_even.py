@@ -61,6 +61,19 @@ def area_of(level):
     return 0.5 * np.linalg.norm(across, axis=1).sum()
 
 
+def test_two_edges_between_the_same_places_enclose_nothing():
+    """Samples on common spheres leave such edges, as in a ball of 32 faces."""
+    import medial_axis
+
+    faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
+    octahedron = np.concatenate((np.eye(3), -np.eye(3))), np.array(faces, np.int32)
+    corners, triangles = meshes.split(octahedron)
+    corners *= 0.29919 / np.linalg.norm(corners, axis=1)[:, None]  # and by luck of rounding
+    centre = np.array((0.01853, -0.23887, 0.07384))
+    found = medial_axis.compute(centre + corners, triangles).axis
+    assert (found.level.betti, euler(found)) == ((1, 0, 0), 1)
+
+
 @pytest.mark.parametrize("name", FLAT)
 def test_flat_walls_have_exact_places_and_reach_edges_and_corners(name):
     found = made(name).measured()

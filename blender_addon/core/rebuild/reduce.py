@@ -117,26 +117,14 @@ def _sheets(axis: MedialAxis, vertices: int, progress: Progress | None) -> Media
 
 
 def _loose(axis: MedialAxis, vertices: int, progress: Progress | None) -> MedialAxis:
-    """Reduce as any sphere mesh."""
-    small = few_spheres(sphere_mesh(_single(axis)), vertices, progress)
+    """Collapse edges until so many vertices are left, or no edge can collapse."""
+    given = sphere_mesh(_single(axis)).arrays
+    with own_errors() as module:
+        small = SphereMesh(
+            *module.reduce_sphere_mesh(*given, vertices, progress=progress and progress.part())
+        )
     offsets = np.arange(0, 3 * len(small.triangles) + 1, 3, dtype=np.int32)
     return _as_axis(small.vertices, small.radius, offsets, small.triangles.reshape(-1), small.edges)
-
-
-def small_mesh(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> SphereMesh:
-    """Reduce the inner axis as a whole, without regard to sheets and sharp edges."""
-    balls = _on_samples(axis) if _has_crisp_edges(axis) else axis
-    return few_spheres(sphere_mesh(_single(balls)), vertices, progress)
-
-
-def few_spheres(mesh: SphereMesh, vertices: int, progress: Progress | None = None) -> SphereMesh:
-    """Collapse edges until so many vertices are left, or no edge can collapse."""
-    with own_errors() as module:
-        return SphereMesh(
-            *module.reduce_sphere_mesh(
-                *mesh.arrays, vertices, progress=progress and progress.part()
-            )
-        )
 
 
 def _on_samples(axis: MedialAxis) -> MedialAxis:

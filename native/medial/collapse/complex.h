@@ -27,6 +27,8 @@ struct ShrunkFacet {
 
 struct InnerComplex {
   // Vertices are in the order of their cells; for several cells in one place it is the lowest one.
+  // The last ones are in the middle of edges with the ends of another one, and have the cell of
+  // one.
   Array<int32_t> cell;
   Array<Vec3> position;
   Array<double> radius;

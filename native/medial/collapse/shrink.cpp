@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "collapse/shrink.h"
 
+#include "base/rows.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -199,6 +200,53 @@ class Shrinker {
   std::vector<Step> left_;  // round the current facet
 };
 
+// Returns the edges with the ends of another one, which a merged vertex may have, but the first.
+std::vector<int32_t> parallel_edges(const InnerComplex& complex) {
+  std::vector<uint8_t> merged(complex.cell.size(), 0);
+  for (const auto& [vertex, cell] : complex.merged) merged[vertex] = 1;
+  const auto ends = [&](int32_t e) { return complex.ends[e]; };
+  auto order = rows_where(complex.ends.size(), [&](int32_t e) {
+    const auto& [a, b] = ends(e);
+    return a != b && (merged[a] || merged[b]);
+  });
+  std::ranges::stable_sort(order, {}, ends);
+  std::vector<int32_t> found;
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (ends(order[i]) == ends(order[i - 1])) found.push_back(order[i]);
+  }
+  return found;
+}
+
+// Puts a vertex in the middle of all parallel edges but one. They would be drawn as one edge, and
+// what is between them as a cavity.
+void divide_parallel_edges(InnerComplex& complex) {
+  std::vector<int32_t> half(complex.ends.size(), -1);
+  for (const int32_t e : parallel_edges(complex)) {
+    const auto [a, b] = complex.ends[e];
+    const Vec3 &p = complex.position[a], &q = complex.position[b];
+    const double square = complex.radius[a] * complex.radius[a] +
+                          complex.radius[b] * complex.radius[b] - 0.5 * squared_length(q - p);
+    half[e] = complex.edges();
+    complex.ends[e] = {a, complex.vertices()};
+    complex.ends.push_back({b, complex.vertices()});
+    complex.position.push_back(0.5 * (p + q));
+    complex.radius.push_back(std::sqrt(std::max(0.5 * square, 0.0)));
+    complex.cell.push_back(complex.cell[a]);
+  }
+  const Array<Corner> before = std::exchange(complex.corners, {});
+  size_t next = 0;
+  for (size_t f = 1; f < complex.offsets.size(); ++f) {
+    for (; next < static_cast<size_t>(complex.offsets[f]); ++next) {
+      const auto [vertex, edge] = before[next];
+      const bool back = vertex != complex.ends[edge][0];
+      const int32_t other = half[edge];
+      complex.corners.push_back({vertex, other >= 0 && back ? other : edge});
+      if (other >= 0) complex.corners.push_back({complex.ends[edge][1], back ? edge : other});
+    }
+    complex.offsets[f] = static_cast<int32_t>(complex.corners.size());
+  }
+}
+
 }  // namespace
 
 InnerComplex shrink(InnerComplex complex, std::span<const int32_t> place, const Run& run) {
@@ -208,7 +256,9 @@ InnerComplex shrink(InnerComplex complex, std::span<const int32_t> place, const 
         if (without_length(complex, place, edge)) out.push_back(edge);
       });
   if (points.empty()) return complex;
-  return Shrinker(complex, place, points, run).result();
+  InnerComplex shrunk = Shrinker(complex, place, points, run).result();
+  divide_parallel_edges(shrunk);
+  return shrunk;
 }
 
 }  // namespace medial

@@ -3,6 +3,7 @@
 
 #include "axis/significance.h"
 #include "base/raise.h"
+#include "base/rows.h"
 #include "base/sort.h"
 #include "collapse/betti.h"
 #include "levels/even_rims.h"
@@ -112,9 +113,8 @@ class Drawer {
       const auto& [p, q] = complex_.generators[facets[i]];
       level_.generators[i] = {(*h_.row)[p], (*h_.row)[q]};
       level_.facet_of[i] = facets[i];
-      for_drawn_edges(facets[i], [&](int32_t, int32_t edge) {
-        if (shared_load(used_[edge]) < 2) shared_add(used_[edge], uint8_t{1});
-      });
+      for_drawn_edges(facets[i],
+                      [&](int32_t, int32_t edge) { shared_store(used_[edge], uint8_t{1}); });
     });
   }
 
@@ -158,7 +158,7 @@ class Drawer {
     // Per vertex, this is the newest facet that starts there; per facet, the one before it; or -1.
     auto newest = array<int32_t>(level_.vertex_of.size(), -1, run_);
     auto before = array<int32_t>(facets.size(), -1, run_);
-    const auto is_twin = [&](int64_t i) {
+    const auto is_twin = [&](int32_t i) {
       const auto polygon = corners(i);
       int32_t& start = newest[polygon[0]];
       for (int32_t other = start; other >= 0; other = before[other]) {
@@ -168,17 +168,14 @@ class Drawer {
         }
       }
       before[i] = start;
-      start = static_cast<int32_t>(i);
+      start = i;
       return false;
     };
-    std::vector<int64_t> twins;
-    for (size_t i = 0; i < facets.size(); ++i) {
-      if (is_twin(static_cast<int64_t>(i))) twins.push_back(static_cast<int64_t>(i));
-    }
+    const std::vector<int32_t> twins = rows_where(facets.size(), is_twin);
     if (!twins.empty()) leave_out(twins, facets);
   }
   // Removes some facets, given by their ascending places in the list.
-  void leave_out(std::span<const int64_t> some, Array<int32_t>& facets) {
+  void leave_out(std::span<const int32_t> some, Array<int32_t>& facets) {
     const auto count = static_cast<int64_t>(facets.size());
     int64_t left = 0;
     for (int64_t i = 0; i < count; ++i) {
@@ -275,7 +272,7 @@ class Drawer {
   const Alive& alive_;
   Run run_;
   uint8_t has_loops_ = 0;
-  Array<uint8_t> used_;     // per edge: facets at it; 2 means two or more
+  Array<uint8_t> used_;     // per edge: 1 if a facet is there
   Array<uint8_t> touched_;  // per vertex: 1 if an edge is there
   Array<int32_t> number_;   // per vertex: its number in the level
   Level level_;
