@@ -76,8 +76,7 @@ std::vector<int32_t> lone_points(const PointTree& tree, const Run& run) {
     }
     return false;
   };
-  const auto lone = rows_where(tree.size(), [&](int32_t i) { return far[i] && !is_known(i); });
-  return lone;
+  return rows_where(tree.size(), [&](int32_t i) { return far[i] && !is_known(i); });
 }
 
 namespace {
