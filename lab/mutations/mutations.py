@@ -787,7 +787,7 @@ MUTATIONS = (
     # ---- remesh
     Mutation(
         "remesh/sheet_complex.cpp",
-        "  for (auto& [a, b] : wires_) a = vertex[a], b = vertex[b];\n",
+        "  for (auto& [a, b] : wires_) a = kept.number[a], b = kept.number[b];\n",
         "",
         "wires of a compact mesh keep their numbers",
     ),

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include "analysis_parts.h"
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"

@@ -240,7 +240,7 @@ TEST(SheetComplex, ACompactMeshIsWhatWasLeft) {
     SheetComplex mesh = all;
     collapse_some(mesh, random);
     SheetComplex compact = mesh;
-    const auto [vertex, triangle] = compact.compact();
+    const auto [vertex, triangle, number] = compact.compact();
     ASSERT_EQ(compact.triangles(), static_cast<int32_t>(left_of(mesh).size()));
     for (int32_t v = 0; v < compact.vertices(); ++v) {
       std::vector<int32_t> expected, found;
@@ -248,6 +248,7 @@ TEST(SheetComplex, ACompactMeshIsWhatWasLeft) {
       compact.for_triangles(v, [&](int32_t t) { found.push_back(triangle[t]); });
       ASSERT_EQ(found, expected);
       ASSERT_EQ(compact.stratum(v), mesh.stratum(vertex[v]));
+      ASSERT_EQ(number[vertex[v]], v);
     }
     for (const auto& [a, b] : compact.edges()) {
       ASSERT_EQ(compact.can_collapse(a, b), mesh.can_collapse(vertex[a], vertex[b]));

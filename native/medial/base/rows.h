@@ -59,20 +59,17 @@ std::vector<int32_t> rows_where(size_t count, const IsKept& is_kept) {
   return kept;
 }
 
-template <typename List>
-List rows_of(const List& values, std::span<const int32_t> rows) {
-  List found;
+// Returns selected rows of a list, as a list of the same kind.
+template <typename List, typename Found = List>
+Found rows_of(const List& values, std::span<const int32_t> rows) {
+  Found found;
   found.reserve(rows.size());
   for (const int32_t row : rows) found.push_back(values[row]);
   return found;
 }
-
 template <typename T>
 std::vector<T> rows_of(std::span<const T> values, std::span<const int32_t> rows) {
-  std::vector<T> found;
-  found.reserve(rows.size());
-  for (const int32_t row : rows) found.push_back(values[row]);
-  return found;
+  return rows_of<std::span<const T>, std::vector<T>>(values, rows);
 }
 
 // Returns the place of each number below `count` among selected rows; -1 for those that are not.

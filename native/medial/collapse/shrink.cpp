@@ -220,8 +220,10 @@ std::vector<int32_t> parallel_edges(const InnerComplex& complex) {
 // Puts a vertex in the middle of all parallel edges but one. They would be drawn as one edge, and
 // what is between them as a cavity.
 void divide_parallel_edges(InnerComplex& complex) {
+  const std::vector<int32_t> parallel = parallel_edges(complex);
+  if (parallel.empty()) return;
   std::vector<int32_t> half(complex.ends.size(), -1);
-  for (const int32_t e : parallel_edges(complex)) {
+  for (const int32_t e : parallel) {
     const auto [a, b] = complex.ends[e];
     const Vec3 &p = complex.position[a], &q = complex.position[b];
     const double square = complex.radius[a] * complex.radius[a] +

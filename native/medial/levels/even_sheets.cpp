@@ -66,8 +66,7 @@ class EvenSheets {
 
   // The first round leaves a tenth of the mesh; all later ones are quicker without the rest.
   void leave_out_what_is_gone(EvenMesh& even) {
-    const auto before = static_cast<size_t>(even.mesh.vertices());
-    const std::vector<int32_t> number = places_among(compact(even), before);
+    const std::vector<int32_t> number = compact(even);
     for (auto& [a, b] : level_.wires) a = number[a], b = number[b];
     for (int32_t& v : level_.points) v = number[v];
   }

@@ -156,14 +156,14 @@ void move(EvenMesh& even, int32_t v, const Vec3& place) {
 }
 
 std::vector<int32_t> compact(EvenMesh& even) {
-  auto [vertices, triangles] = even.mesh.compact();
+  auto [vertices, triangles, number] = even.mesh.compact();
   even.position = rows_of(even.position, vertices);
   even.target = rows_of(even.target, vertices);
   even.origin = rows_of(even.origin, vertices);
   even.held = rows_of(even.held, vertices);
   even.source = rows_of(even.source, triangles);
   even.normal = rows_of(even.normal, triangles);
-  return vertices;
+  return number;
 }
 
 std::optional<std::array<Vec3, 2>> normals_of_flip(const EvenMesh& even, int32_t a, int32_t b) {

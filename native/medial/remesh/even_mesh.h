@@ -40,7 +40,7 @@ bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);
 // Collapses a vertex into another one; `moved` becomes the triangles that it had.
 void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
-// Does what SheetComplex::compact does; returns the former numbers of the vertices.
+// Does what SheetComplex::compact does; returns the new number of each former vertex, or -1.
 std::vector<int32_t> compact(EvenMesh& even);
 // Takes over the normal of a triangle whose corners have moved.
 void settle_normal(EvenMesh& even, int32_t triangle);

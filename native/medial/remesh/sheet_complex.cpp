@@ -285,8 +285,9 @@ Kept SheetComplex::compact() {
   Kept kept{
       rows_where(vertices(), [&](int32_t v) { return has_triangles(v) || stays(v); }),
       rows_where(triangles(), [&](int32_t t) { return !is_gone(t); }),
+      {},
   };
-  const auto vertex = places_among(kept.vertices, vertices());
+  kept.number = places_among(kept.vertices, vertices());
   const auto triangle = places_among(kept.triangles, triangles());
   const auto corner = [&](int32_t c) { return c < 0 ? c : 3 * triangle[c / 3] + c % 3; };
   for (size_t t = 0; t < kept.triangles.size(); ++t) {
@@ -294,7 +295,7 @@ Kept SheetComplex::compact() {
       const int32_t before = 3 * kept.triangles[t] + i;
       next_[3 * t + i] = corner(next_[before]);
       before_[3 * t + i] = corner(before_[before]);
-      triangles_[t][i] = vertex[triangles_[kept.triangles[t]][i]];
+      triangles_[t][i] = kept.number[triangles_[kept.triangles[t]][i]];
     }
   }
   for (size_t v = 0; v < kept.vertices.size(); ++v) {
@@ -306,7 +307,7 @@ Kept SheetComplex::compact() {
   triangles_.resize(kept.triangles.size());
   first_.resize(kept.vertices.size());
   mark_.assign(kept.vertices.size(), 0);
-  for (auto& [a, b] : wires_) a = vertex[a], b = vertex[b];
+  for (auto& [a, b] : wires_) a = kept.number[a], b = kept.number[b];
   return kept;
 }
 

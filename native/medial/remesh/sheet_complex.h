@@ -17,9 +17,10 @@ namespace medial {
 // Every other vertex is a node, and so is one at which a wire ends, or that is said to be one.
 enum class Stratum : uint8_t { sheet, curve, node };
 
-// The former numbers of the vertices and triangles that are left, ascending.
+// The former numbers of the vertices and triangles that are left, ascending, and the new number of
+// each former vertex, or -1.
 struct Kept {
-  std::vector<int32_t> vertices, triangles;
+  std::vector<int32_t> vertices, triangles, number;
 };
 
 // `triangles_at`, `can_collapse` and what calls them may not be called from several threads at
