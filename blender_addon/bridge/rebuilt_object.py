@@ -7,7 +7,6 @@ is measured and remembered.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import bpy
@@ -20,17 +19,12 @@ from ..core.settings import Side
 from ..core.shape.shape import Shape
 from ..core.small_matrices import inverse, times
 from .axis.axis_object import radius_range, settings_of
-from .axis.reduced_object import is_reduced
 from .mesh import stored
 from .mesh.colours import remember_colours
 from .mesh.material import FLAT
 from .nodes.groups import add_modifier, is_group
-from .nodes.inputs import set_inputs
 from .objects.output_object import Product, follow_like, is_gone, new_object, source_of
 from .objects.read_object import read_object
-
-_PARTS = 256  # voxels along the diagonal
-
 
 SOLID = Product(" Rebuilt", (stored.REBUILT,))
 is_rebuilt, rebuilt_of = SOLID.has, SOLID.of
@@ -71,32 +65,8 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     made.color = FLAT
     start, end = colours_of_radii(radius_range(result))
     remember_colours(made, result.get(stored.COLOUR_OF, ""), start, end)
-    voxel = _diagonal(result) / _PARTS
-    if is_reduced(result):
-        _divide(made, voxel)
-    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": voxel})
+    add_modifier(made, "REBUILD")
     return made
-
-
-def _divide(rebuilt: bpy.types.Object, voxel: float) -> None:
-    """Divide triangles and edges, with their radii, until vertices are about as close as voxels: what is rebuilt are
-    balls at vertices."""
-    mesh = rebuilt.data
-    ends = np.array([tuple(edge.vertices) for edge in mesh.edges], int).reshape(-1, 2)
-    places = np.array([tuple(vertex.co) for vertex in mesh.vertices], float).reshape(-1, 3)
-    longest = np.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1).max(initial=0.0)
-    if longest <= voxel:
-        return
-    modifier = rebuilt.modifiers.new("Subdivision", "SUBSURF")
-    modifier.subdivision_type = "SIMPLE"
-    modifier.levels = modifier.render_levels = min(5, math.ceil(math.log2(longest / voxel)))
-
-
-def _diagonal(result: bpy.types.Object) -> float:
-    """The diagonal of the box round an axis, in its own frame, and the largest ball: the axis of a ball is a point."""
-    corners = [tuple(corner) for corner in result.bound_box]
-    sides = (max(values) - min(values) for values in zip(*corners, strict=True))
-    return sum(side * side for side in sides) ** 0.5 + 2 * radius_range(result)[1]
 
 
 def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidDifference | None:

@@ -16,8 +16,7 @@ from .tree import Tree
 HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)
 MATERIAL = "Material"
 _VOXEL = 2.0**-7  # the size at which the solid is made
-_FACES = 60_000.0  # about as many as the facets of an axis of 40,000 samples
-_MOST_DIVISIONS = 4.0
+_EDGES = 90_000.0  # about as many as those of the facets of an axis of 40,000 samples
 _MEANS = 4  # of radii over the faces around a vertex
 
 
@@ -45,14 +44,14 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
 
 
 def _divided(tree: Tree) -> NodeSocket:
-    """The axis, divided until it has nearly as many faces as balls make a smooth solid: radii between are linear."""
+    """The axis, divided until it has nearly as many edges as balls make a smooth solid: radii between are linear."""
     # The outputs are numbers of points, edges, faces and others.
     size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry, component="MESH").node
-    more = tree.math("DIVIDE", _FACES, size.outputs[2])
+    more = tree.math("DIVIDE", _EDGES, size.outputs[1])
     level = tree.math("FLOOR", tree.math("MAXIMUM", tree.math("LOGARITHM", more, 4.0), 0.0))
     return tree.node(
         "GeometryNodeSubdivideMesh",
-        named={"Mesh": tree.geometry, "Level": tree.math("MINIMUM", level, _MOST_DIVISIONS)},
+        named={"Mesh": tree.geometry, "Level": level},
     )
 
 
