@@ -37,7 +37,7 @@ from .lint import Skip
 Part = Callable[[Path], Optional[str]]
 LONGEST = 15  # tests that pytest names with their seconds
 TIMES = paths.BUILD / "test_times.json"
-SHARES = 4  # one oracle's case in so many runs by default, and one test in so many that take turns
+SHARES = 4  # one case in so many runs by default, of oracles and of long tests
 
 # The scenes of the window that run by default: computing and undoing, Esc, undo of a running job, and a zip
 # without a module.
@@ -161,10 +161,10 @@ def native(blender: Path) -> None:
 
 
 def python(blender: Path) -> str:
-    """Everything without Blender but the long tests, with one case in four of the oracles."""
+    """Everything without Blender but the slow tests, with one case in four of the oracles and of the long tests."""
     run_pytest(blender, "--share", share(), "tests/python")
     run_pytest(blender, "lab/tests/test_mutations.py")  # its texts follow the sources
-    return f"cases {share()} of the oracles"
+    return f"cases {share()} of oracles and of long tests"
 
 
 def all_python(blender: Path) -> None:
@@ -312,8 +312,8 @@ def clang(blender: Path) -> None:
 
 
 # Whatever is left out of `test` is left out by a rule: the marker slow, all but one case in four of the marker oracle
-# and one test in four of the marker turn and of those under AddressSanitizer, the scenes that are not in SCENES, the
-# parts that only `full` has, and what looks at C++ where none has changed.
+# and of the tests of support/long_tests.txt, three of four native tests under AddressSanitizer, the scenes that are
+# not in SCENES, the parts that only `full` has, and what looks at C++ where none has changed.
 TIERS: dict[str, dict[str, Part]] = {
     "test": {
         "build": functools.partial(build, local=True),

@@ -83,7 +83,6 @@ def operator_axis(name, frame):
 # --- objects and frames
 
 
-@pytest.mark.turn
 def test_frames_of_a_file(here, run):
     code, reports = run(walking(), "axes/", "--format", "npz", "--frames", "1-5:2")
     assert code == 0
@@ -122,7 +121,6 @@ def test_python_in_a_file_runs_only_where_it_is_allowed(here, flag, ran):
         assert Path("ran").exists() is ran, f"{option} decided"
 
 
-@pytest.mark.turn
 def test_open_file_is_the_input_where_none_is_named(here, run):
     walking()
     bpy.context.scene.frame_set(3)
@@ -133,7 +131,6 @@ def test_open_file_is_the_input_where_none_is_named(here, run):
     assert "Body" in bpy.data.objects
 
 
-@pytest.mark.turn
 def test_frames_are_kept_in_any_order_of_chunks(here, run):
     run(walking(), "axes/", "--frames", "4,5", "--object", "Body")
     code, reports = run("walk.blend", "axes/", "--frames", "1-5", "--object", "Body")
@@ -225,7 +222,6 @@ def test_the_same_bytes_in_every_way_in(here, run):
     assert len({(here / f"{name}.npz").read_bytes() for name in names}) == 1
 
 
-@pytest.mark.turn
 def test_exit_codes_leave_blender(here):
     walking()
     assert in_blender("none.off", "a.ma").returncode == 3
@@ -235,7 +231,6 @@ def test_exit_codes_leave_blender(here):
                       file=["walk.blend"]).returncode == 1  # fmt: skip
 
 
-@pytest.mark.turn
 def test_two_blenders_in_one_folder(here):
     """The same frames at the same time, in other orders: every file is whole and as if made alone."""
     walking()
@@ -269,7 +264,6 @@ def test_module_path_of_an_enabled_addon(here):
     assert [r["status"] for r in reports_of(done.stdout)] == ["kept"] * 2, done.stderr
 
 
-@pytest.mark.turn
 def test_documented_commands(here):
     """The commands of the page that need Blender."""
     page = os.environ.get("MEDIAL_AXIS_DOCS") or Path(__file__).parents[2] / "docs"

@@ -55,7 +55,6 @@ def parameters(template, **others):
     return {f"Param.{name}": value for name, value in {**usual, **others}.items()}
 
 
-@pytest.mark.turn
 def test_openjd_commands_do_the_work(here, template):
     values = parameters(
         template, BlendFile=str(here / "walk.blend"), OutputFolder=str(here / "axes"),

@@ -194,7 +194,6 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
     assert np.array_equal(attribute(thing.data, "ma_limb"), attribute(mesh, "ma_limb"))
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("smooth", [False, True], ids=["flat", "smooth"])
 @pytest.mark.parametrize("levels", [0, 2, pytest.param(3, marks=pytest.mark.slow)])
 def test_suzanne_is_one_piece(levels, smooth):

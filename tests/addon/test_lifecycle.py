@@ -40,7 +40,6 @@ def change(source, run):
     select(source)
 
 
-@pytest.mark.turn
 def test_runs_leave_no_blocks_and_no_memory():
     source = ellipsoid(segments=5)
     cache = addon("core.machine.cache").CACHE
@@ -62,7 +61,6 @@ def test_runs_leave_no_blocks_and_no_memory():
     preferences.property_unset("cache_size")
 
 
-@pytest.mark.turn
 def test_moved_sliders_leave_no_blocks_and_no_memory():
     """Each moves Simplify, which only filters, and each tenth theta, which needs another hierarchy.
 
@@ -158,7 +156,6 @@ def play(blender, folder, name, text):
     assert blender.script(path, name, check=False) == 0
 
 
-@pytest.mark.turn
 def test_update_of_an_older_version(blender, tmp_path):
     """The preferences stay, the files of the older version go, and the new version computes."""
     name = blender.install(archive(tmp_path / "old.zip", "0.0.9"))
@@ -182,7 +179,6 @@ def test_update_of_an_older_version(blender, tmp_path):
     play(blender, tmp_path, name, new)
 
 
-@pytest.mark.turn
 def test_update_while_the_older_version_runs(blender, tmp_path):
     """The compiled module stays loaded, everything else is that of the new version."""
     name = blender.install(archive(tmp_path / "old.zip", "0.0.9"))
@@ -272,7 +268,6 @@ assert wrote == [], wrote
 """
 
 
-@pytest.mark.turn
 def test_work_writes_no_file_needs_no_network_and_leaves_the_path(blender, tmp_path):
     name = blender.install(archive(tmp_path / "new.zip"))
     profile = tmp_path / "profile"

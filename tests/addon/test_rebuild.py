@@ -81,7 +81,6 @@ def test_offset_of_a_torus_is_a_thicker_torus():
     assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
 
 
-@pytest.mark.turn
 def test_offset_of_a_box():
     bpy.ops.mesh.primitive_cube_add(size=2)
     source = bpy.context.object

@@ -91,7 +91,6 @@ def test_it_is_made_once_and_again_for_another_number():
     assert reduced_of(source) == made and contents() == before and len(made.data.vertices) == 12
 
 
-@pytest.mark.turn
 def test_the_solid_of_a_small_mesh_is_rebuilt(capfd):
     source = ellipsoid(segments=4)
     compute(form="CLEAN", side="INNER")

@@ -106,7 +106,6 @@ def test_killed_while_writing_leaves_the_old_file(axis, exporter, tmp_path):
     assert content_of(target) == new, "the next export must work"
 
 
-@pytest.mark.turn
 def test_two_blenders_write_the_same_file(axis, exporter, tmp_path):
     """The last one wins; nobody ever reads a mixture."""
     target = tmp_path / "axis.ma"

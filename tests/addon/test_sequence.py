@@ -105,7 +105,6 @@ def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, 
     assert out.count(" facets, kept\n") == 2
 
 
-@pytest.mark.turn
 def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):
     other = torus("Ring")
     other.scale = (1, 1, 0)
@@ -155,7 +154,6 @@ def test_saved_file_plays_without_the_addon(growing, tmp_path):
     assert [list(each) for each in handlers] == before
 
 
-@pytest.mark.turn
 def test_files_of_a_farm_are_imported(growing, tmp_path, capfd):
     words = [f"{tmp_path}/", "--frames", "1-4", "--format", "npz"]
     assert addon("cli").main(words) == 0

@@ -48,7 +48,6 @@ def boxed():
     return axis_of(plates.box())
 
 
-@pytest.mark.turn
 @pytest.mark.oracle
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("count", [4000, 10000])

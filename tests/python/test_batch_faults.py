@@ -168,7 +168,6 @@ def test_a_system_without_threads(folder, run, monkeypatch):  # noqa: F811
     assert (code, said) == (cli.DONE, "") and [r["status"] for r in reports] == ["done", "done"]
 
 
-@pytest.mark.turn
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
 @pytest.mark.parametrize("megabytes", [300, 420, 520, 640, 800, 1000, 1300])
 def test_little_address_space(folder, program, megabytes):  # noqa: F811
@@ -264,7 +263,6 @@ def test_one_heap_where_addresses_are_few(program):  # noqa: F811
 # --- signals
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_while_a_weak_reference_dies(folder, monkeypatch, capsys, number):
     """Python prints and drops an exception that a weak reference's callback raises; the signal is raised again."""

@@ -72,7 +72,6 @@ def test_a_torus_is_a_loop_of_one_curvature():
     assert found.perimeter_mean[0] == pytest.approx(perimeter, rel=2e-3)
 
 
-@pytest.mark.turn
 def test_a_helix_turns_and_climbs():
     """A left-handed one has the opposite torsion."""
     pitch = 0.4

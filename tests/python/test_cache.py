@@ -227,7 +227,6 @@ def pairs_of(starts, options, name):
     ]
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(Settings))
 def test_an_axis_does_not_depend_on_the_settings_before(name):
     of_points = name == "prepare"
@@ -246,7 +245,6 @@ def test_a_skeleton_does_not_depend_on_the_settings_before(name):
     assert_independent_of_history(lambda wanted: compute_skeleton(shape, settings, wanted), pairs)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(BallSettings))
 def test_balls_do_not_depend_on_the_settings_before(name):
     shape = bent_shape()
@@ -267,7 +265,6 @@ def test_a_thickness_does_not_depend_on_the_settings_before(name):
     assert_independent_of_history(compute, pairs)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(Settings))
 def test_a_kept_measurement_is_not_replaced_by_one_of_other_settings(name):
     shape = bent_shape()

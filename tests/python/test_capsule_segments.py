@@ -132,7 +132,6 @@ def test_a_spindle_has_no_end_bare():
     assert found.farthest < balls.farthest and found.covered > balls.covered
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("shapes", ["capsules", "tapered"])
 def test_thin_ends_are_not_left_bare(shapes):
     """Edges of a small mesh end where the depth is 0; capsules round them left 3.4 of this body's 8 bare."""

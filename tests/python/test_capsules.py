@@ -166,7 +166,6 @@ def covered(shapes="capsules", **options):
     return found.balls
 
 
-@pytest.mark.turn
 def test_capsules_of_a_torus_go_round_it():
     fine = meshes.torus(1.0, 0.4, 64, 32)
     found = medial_axis.cover_by_balls(*fine, sampling="vertices", shapes="tapered", count=14)

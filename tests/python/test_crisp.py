@@ -53,7 +53,6 @@ def test_convex_edges_are_on_the_axis(name):
     assert solid.off_axis(solid.edges).max() < 1e-14
 
 
-@pytest.mark.turn
 @pytest.mark.oracle
 @pytest.mark.parametrize("name", NAMES)
 def test_distance_to_the_axis_is_that_to_its_nearest_point(name):
@@ -356,7 +355,6 @@ def test_the_bars_can_fail():
     assert {word.split()[0].rstrip(",") for word in missed} >= {"err", "cov", "gap", "rim", "area"}
 
 
-@pytest.mark.turn
 def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(medial, data_file):
     import medial_axis
 

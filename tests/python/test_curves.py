@@ -80,7 +80,6 @@ def analysed(medial, shape, n, noise, seed=0):
     return medial.MedialAnalysis(points)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "n, noise, mean, largest",
     [(2000, 0.0, 4.5e-5, 1.5e-4), (8000, 0.0, 1.5e-5, 3.0e-5), (8000, 0.1, 1e-3, 3e-3)],
@@ -288,7 +287,6 @@ def of_mesh(data_file, name):
 
 
 # Dangling wires of the clean form: cactus' arms are round, its like there is none on these scans but ridges.
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "name, most", [("liver.ply", 0), ("hand_closed.obj", 0), ("fandisk_large.off", 0)]
 )

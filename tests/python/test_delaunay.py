@@ -72,7 +72,6 @@ def test_cells_fill_the_convex_hull(study):
         assert (sizes > 0).all() and sizes.sum() == 6 * volume
 
 
-@pytest.mark.turn
 def test_empty_spheres_of_20000_samples(study):
     from scipy.spatial import cKDTree
 

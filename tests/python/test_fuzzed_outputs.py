@@ -103,7 +103,6 @@ def run(words):
         return cli.main(words)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("seed", repeats(60))
 def test_fuzzed_outputs(folder, seed):
     rng = random.Random(seed)

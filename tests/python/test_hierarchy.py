@@ -277,7 +277,6 @@ NOISY = {
 }
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("noise, name", NOISY)
 def test_clean_levels_of_noisy_solids(sampled, noise, name):
     shape, _, hierarchy = sampled(name, 8000, 0, noise)
@@ -292,7 +291,6 @@ def test_clean_levels_of_noisy_solids(sampled, noise, name):
 SHEETS = ("ellipsoid", "oblate", "slab", "shell", "box")
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", SHEETS)
 @pytest.mark.parametrize("n", [2000, 8000])
 def test_clean_sheets_are_as_good_as_published_ones(medial, sampled, name, n):
@@ -422,7 +420,6 @@ def sheets(level):
     return connected_components(at @ at.T, directed=False)[0] if len(sizes) else 0
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "name", [pytest.param(n, marks=pytest.mark.slow if n in LARGE else ()) for n in MESHES]
 )

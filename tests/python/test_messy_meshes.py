@@ -69,7 +69,6 @@ def assert_sentences(result):
     assert all(len(text) > 20 and "\n" not in text for text in result.warnings)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", [*SMALL, *HUGE])
 def test_files(medial, computed, name):
     mesh, result = computed(name)
@@ -109,7 +108,6 @@ def test_holes_in_the_mannequin(medial, computed):
     assert outside.mean() < 0.01
 
 
-@pytest.mark.turn
 def test_an_elephant_with_holes_and_duplicates(medial, computed):
     mesh, result = computed("elephant-with-holes.off")
     assert len(np.unique(mesh[0], axis=0)) < len(mesh[0])
@@ -125,7 +123,6 @@ def test_loose_vertices_of_the_bunny_are_no_samples(computed):
     assert any(f"{loose:,}" in text for text in result.warnings)
 
 
-@pytest.mark.turn
 def test_components_of_the_engine(medial, computed):
     """The axis has a piece in each of the 7 parts that is large enough to be sampled."""
     mesh, result = computed("engine_parts.ply")

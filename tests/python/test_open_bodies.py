@@ -80,7 +80,6 @@ ONE = {
 }
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", ONE)
 def test_one_solid(name):
     found = computed(ONE[name])

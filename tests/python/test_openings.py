@@ -50,7 +50,6 @@ def test_a_plane_opening_gets_a_plane_lid(medial, mesh, lid):
     assert 0.75 * expected < len(points) < 1.3 * expected
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
 def test_they_lie_where_the_winding_number_is_a_half_and_as_far_apart_as_the_others(medial, mesh):
     found, (points, normals, radius) = sampled(medial, mesh)
@@ -68,7 +67,6 @@ def test_they_lie_where_the_winding_number_is_a_half_and_as_far_apart_as_the_oth
     assert away[normals @ found.normals.T > 0].min() > 0.85 * radius[0]
 
 
-@pytest.mark.turn
 def test_they_leave_no_hole(medial):
     found, (points, _, radius) = sampled(medial, BOWL)
     turn, out = np.meshgrid(np.linspace(0, 6.28, 90), np.linspace(0.0, 0.99, 40))
@@ -112,7 +110,6 @@ def surface(mesh, count=4000, **settings):
     return compute(*mesh, Settings(sampling=SamplingMode.SURFACE, samples=count, **settings))
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "mesh",
     [BOWL, OPEN_BOX, pytest.param(EYE, marks=pytest.mark.slow)],
@@ -175,7 +172,6 @@ def test_chosen_normals_are_kept(medial):
     assert samples.buried == 0 and samples.kinds.max() == int(medial.SampleKind.SURFACE)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "name, most",
     [

@@ -101,7 +101,6 @@ farthest = pytest.mark.parametrize("sizes", [1e5])
 every = pytest.mark.parametrize("name", SOLIDS)
 
 
-@pytest.mark.turn
 @far
 @every
 def test_axes_have_the_radii_of_the_faces(name, sizes):
@@ -120,7 +119,6 @@ def test_axes_have_the_radii_of_the_faces(name, sizes):
     assert axis.level.refused <= 0.1 * len(axis.vertices)
 
 
-@pytest.mark.turn
 @far
 @every
 def test_thickness(name, sizes, tmp_path):
@@ -136,7 +134,6 @@ def test_thickness(name, sizes, tmp_path):
         assert np.abs(patch["place"] - sizes * DIRECTION).max() <= 1.0
 
 
-@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["plate", "tube"])
 def test_thicken(name, sizes, tmp_path):
@@ -150,7 +147,6 @@ def test_thicken(name, sizes, tmp_path):
     assert_same_places(near, there, 1e-5)
 
 
-@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_middle_surfaces(name, sizes, tmp_path):
@@ -160,7 +156,6 @@ def test_middle_surfaces(name, sizes, tmp_path):
     assert_alike(one, other, names, 0.01)
 
 
-@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["box", "profile"])
 def test_hollow(name, sizes, tmp_path):
@@ -170,7 +165,6 @@ def test_hollow(name, sizes, tmp_path):
     assert one["warnings"] == other["warnings"]
 
 
-@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["tube", "profile"])
 def test_skeletons(name, sizes, tmp_path):
@@ -186,7 +180,6 @@ def test_skeletons(name, sizes, tmp_path):
     assert reports[0]["warnings"] == reports[1]["warnings"]
 
 
-@pytest.mark.turn
 @farthest
 @pytest.mark.parametrize("name", ["box", "profile"])
 @pytest.mark.parametrize("shapes", [CoverShapes.BALLS, CoverShapes.CAPSULES])
@@ -230,7 +223,6 @@ def test_points_alone():
 # --- coordinates in 32 bits
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_single_coordinates_at_a_thousand_sizes(name, tmp_path):
     """Their noise is 10^-4 sizes there: the products are those at the origin up to a few times that."""

@@ -106,7 +106,6 @@ def test_crisp_places_do_not_fold_the_rim_of_a_foil():
     assert 0.995 * solid.area < area < 1.01 * (solid.area + solid.into_edges)
 
 
-@pytest.mark.turn
 def test_a_second_pass_follows_curved_walls():
     solid = thin_solids.shell(0.003, subdivisions=4)
     found = computed(solid, samples=4000)
@@ -157,7 +156,6 @@ def plate_with_a_hole(width, thickness):
     return thin_solids.ThinSolid(thin_solids.union(*boxes), (1, 1, 0), 1.0)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "solid",
     [

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from support.tiers import LONG
 
 import build_addon
 from tests import lint, parts
@@ -122,25 +123,28 @@ def test_many(case): pass
 def test_few(case): pass
 @pytest.mark.parametrize("case", range(8))
 def test_no_oracle(case): pass
-@pytest.mark.turn
 def test_first(): pass
-@pytest.mark.turn
 @pytest.mark.parametrize("case", range(3))
 def test_later(case): pass
+@pytest.mark.parametrize("case", range(8))
+def test_long(case): pass
 """
+LISTED = "test_first", "test_later", "test_long"
 
 
 @pytest.fixture
 def rules(tmp_path):
     """A folder whose tests follow the rules of tests/support/tiers.py, and the words that run them."""
     (tmp_path / "conftest.py").write_text(
-        f"import sys\nsys.path.insert(0, {str(ROOT / 'tests')!r})\nfrom support.tiers import *\n"
+        f"import sys\nsys.path.insert(0, {str(ROOT / 'tests')!r})\nfrom support import tiers\n"
+        f"from support.tiers import *\n"
+        f"tiers.LONG = {{'{tmp_path.name}/test_a.py::' + name for name in {LISTED!r}}}\n"
     )
     return tmp_path, [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
 
 
 def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules):
-    """Four shares in processes of their own: two of the eight cases and one turn each, and every other test in each."""
+    """Four shares in processes: two of eight cases and one of the few long ones each, and every other test in each."""
     folder, words = rules
     (folder / "test_a.py").write_text(ORACLES)
     words += ["-q", "--collect-only"]
@@ -151,10 +155,11 @@ def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules
         for i in range(4)
     ]
     names = [{line for line in run.stdout.splitlines() if "::" in line} for run in runs]
-    assert [sum("test_many" in name for name in found) for found in names] == [2] * 4
+    for many in ("test_many", "test_long"):
+        assert [sum(many in name for name in found) for found in names] == [2] * 4
     assert [sum("first" in name or "later" in name for name in found) for found in names] == [1] * 4
-    assert len(set.union(*names)) == 23 and len(set.intersection(*names)) == 11
-    assert [len(found) for found in names] == [14] * 4
+    assert len(set.union(*names)) == 31 and len(set.intersection(*names)) == 11
+    assert [len(found) for found in names] == [16] * 4
 
 
 def test_tests_inside_blender_take_a_share_and_claims_together(rules):
@@ -196,6 +201,17 @@ def test_quick_tests_exist(name):
     file, _, function = name.partition("::")
     text = (ROOT / "tests" / "python" / file).read_text(encoding="utf-8")
     assert not function or re.search(rf"^def {function}\(", text, re.MULTILINE)
+
+
+def test_long_tests_exist_and_notice_no_planted_fault():
+    """A test that notices one runs each time."""
+    tables = [ROOT / "docs/lab" / f"mutations{end}.csv" for end in ("", "_python")]
+    noticed = " ".join(table.read_text(encoding="utf-8") for table in tables)
+    for name in LONG:
+        file, _, function = name.partition("::")
+        text = (ROOT / "tests" / file).read_text(encoding="utf-8")
+        assert re.search(rf"^def {function}\(", text, re.MULTILINE), name
+        assert not re.search(rf"{Path(file).name}::{function}\b", noticed), name
 
 
 # --- what looks at changed C++ only

@@ -126,7 +126,6 @@ def test_a_limb_has_three_bones_so_that_it_can_be_curled():
     assert counts[-2:] == [3, 3]
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("figure", [biped, quadruped])
 def test_names_do_not_depend_on_how_a_figure_is_turned(figure):
     """Any turn keeps the middle and the pairs; up to 30 degrees left stays left, also of the mirror image."""

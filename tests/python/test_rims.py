@@ -42,7 +42,6 @@ def mean_turn(places, edges):
     return np.mean(turns)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", TURN)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rims_are_no_saws(sampled, name, seed):

@@ -143,7 +143,6 @@ def test_the_edges_of_the_faces_stay_flat():
 # ---- the result, and the words
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "betti"), [("ellipsoid", (1, 0, 0)), ("torus", (1, 1, 0)), ("slab", (1, 0, 0))]
 )
@@ -159,7 +158,6 @@ def test_noise_of_half_a_spacing_leaves_the_topology(name, betti):
     assert not any("too sparse" in warning for warning in (*off.warnings, *found.warnings))
 
 
-@pytest.mark.turn
 def test_noise_of_thin_walls_leaves_the_topology():
     """Without Prepare there are loops."""
     points, _ = noisy(SHAPES["shell"], 0.25, 12_000)

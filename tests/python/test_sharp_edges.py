@@ -102,7 +102,6 @@ def inner_axis(medial, name, rotation, **options):
     return off_axis.max(), p99, int((shape.field(mesh.vertices @ turn) > 0).sum())
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("rotation", [Rotation.identity(), Rotation.random(random_state=1)])
 @pytest.mark.parametrize("name", ["box", "cylinder", "frustum"])
 def test_the_axis_runs_straight_into_sharp_edges(medial, name, rotation):

@@ -117,7 +117,6 @@ def test_a_plate_has_few_ends():
 # --- real meshes
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "tips", "loops"),
     [
@@ -202,7 +201,6 @@ def ends_of(skeleton):
     return skeleton.points[tip], skeleton.radius[tip]
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "tips", "loops", "radii_off", "mirrored"),
     [
@@ -239,7 +237,6 @@ def test_the_same_ends_at_every_density_and_however_turned(
             assert (away <= radii_off * np.maximum(first[1], np.median(first[1]))).all()
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("seed", range(3))
 def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
     """No joint lies in a corner of the solid, a rod of radius 0.2 from -1 to 1."""
@@ -322,7 +319,6 @@ def rig_of(data_file, name):
 RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", RIGGED)
 def test_bones_are_few_connected_and_near_the_curve(data_file, name):
     _, rig = rig_of(data_file, name)
@@ -428,7 +424,6 @@ def test_a_limb_leaves_to_its_parent_what_it_loses():
     assert limb[0] < 0.1 and (np.diff(limb) >= 0.0).all() and limb[-1] == 1.0
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", RIGGED)
 def test_weights_hold(data_file, name):
     shape, rig = rig_of(data_file, name)
@@ -778,7 +773,6 @@ def windings(places, shape):
     return np.array(found) / (2 * np.pi)
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize(
     "name", ["spot_low.obj", pytest.param("hand_closed.obj", marks=pytest.mark.slow)]
 )

@@ -27,7 +27,6 @@ def shape_of(mesh):
     return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("size", [0.4, 0.04, 0.01])
 @pytest.mark.parametrize("seed", range(2))
 def test_a_small_cavity_is_not_lost(size, seed):

@@ -220,7 +220,6 @@ def divided(mesh, **wanted):
     return thicken(shape_of(mesh), FEW, settings)
 
 
-@pytest.mark.turn
 def test_subdivide_divides_what_is_thin_in_part():
     mesh = turned(ramp(), 4)
     found = divided(mesh)
@@ -292,7 +291,6 @@ def test_sharp_edges_and_the_choice_of_faces_go_along():
     np.testing.assert_allclose(made, given[face], atol=1e-9)
 
 
-@pytest.mark.turn
 def test_files_and_figures(tmp_path, capsys):
     source = write_off(tmp_path / "ramp.off", ramp())
     words = ["thicken", source, str(tmp_path / "thick.ply"), "--limit", "0.05", "--samples", "1000"]

@@ -114,7 +114,6 @@ def dense_ellipsoid(axes, count=300_000):
     return directions / np.linalg.norm(directions, axis=1)[:, None] * axes
 
 
-@pytest.mark.turn
 def test_ellipsoid_against_shrinking_balls():
     """Balls everywhere; walls where the two normals of the ball differ by 120 degrees or more."""
     axes = np.array([1.0, 0.7, 0.5])
@@ -242,7 +241,6 @@ def test_flat_faces_stay_flat_where_a_bar_with_bevels_is_bent(segments):
     assert np.abs(found.lengths[middle] / 0.02 - 1).max() < 1e-3
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("around, across, turn", [(100, 16, 0.5), (250, 60, 0.5), (4400, 14, 0.0)])
 def test_rows_of_a_ring_are_no_walls(around, across, turn):
     """Rows on top of it are flat, or so long that each of their triangles lies in the next one's plane."""
@@ -515,7 +513,6 @@ AS_THEY_ARE = Settings(prepare=Prepare.OFF)
 NOISY = {"box": (BOX, 0.4), "plate": (block(1.0, 0.7, 0.05), 0.05), "shell": (shell(), 0.2)}
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", NOISY)
 def test_scan_with_noise_of_a_tenth_of_the_spacing(medial, name):
     mesh, truth = NOISY[name]

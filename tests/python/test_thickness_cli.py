@@ -95,7 +95,6 @@ def test_wrong_usage(box, tmp_path, words, capsys):
     assert ".csv, .html, .json or .ply" in capsys.readouterr().err
 
 
-@pytest.mark.turn
 def test_a_page_shows_the_thin_places_in_colours(box, tmp_path):
     """The pictures are read again without a library, and the box fills them in the colour of thin faces."""
     out = tmp_path / "box.html"

@@ -33,7 +33,6 @@ SHARP = {
 }
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", SHARP)
 def test_sharp_edges_make_no_red_light(name):
     """Near a faceted edge every sample is above any epsilon, yet the axis is right."""

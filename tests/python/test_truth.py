@@ -57,7 +57,6 @@ def test_axis_points_lie_on_the_axis(name):
     assert shape.axis_distance(points).max() < 1e-7 and shape.inside(points).all()
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("name", BALLS)
 def test_tangent_balls_cover_the_axis(name):
     """No axis point without a ball near by: the truth claims nothing that is not there."""

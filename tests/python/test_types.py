@@ -64,7 +64,6 @@ def check(tmp_path_factory):
     return run
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("code, errors", [(RIGHT, []), (WRONG, [4, 5, 6, 7])])
 def test_types_as_a_program_sees_them(check, tmp_path, code, errors):
     source = tmp_path / "program.py"

@@ -49,7 +49,6 @@ def places_of(found, count, rng):
 # --- random solids
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("away", AWAY)
 @pytest.mark.parametrize("seed", range(3))
 def test_turned_parts_have_walls_by_the_definition(seed, away):
@@ -66,7 +65,6 @@ def test_turned_parts_have_walls_by_the_definition(seed, away):
     assert between[off < 1e-6].all()
 
 
-@pytest.mark.turn
 @pytest.mark.parametrize("away", AWAY)
 @pytest.mark.parametrize("seed", [11, 30, 72, 75])  # all bends are sharp, and none below 60 degrees
 def test_smooth_turned_parts_are_no_thinner_than_round_ones(seed, away):

@@ -4,23 +4,24 @@
 - slow: tests that take minutes; left out unless --slow is given.
 - oracle: tests that compare results with independent ones over many cases. With --share I/N the case number k of each
   function runs if k % N == I, so N runs with different I see all cases, and each run sees every function.
-- turn: tests that take many seconds. With --share I/N the test number k of all of them runs if k % N == I.
+- long tests, those of long_tests.txt, take turns. With --share I/N they are divided like oracles, or, with fewer than N
+  cases, the case number k of all of them runs if k % N == I.
 - --claims FOLDER: processes that share the folder share the files of tests. Each takes the next file that none has
   taken, the longest first, and notes it there.
 """
 
-from collections import Counter
 from pathlib import Path
 
 import pytest
 
 from .claims import claim
 
+LONG = frozenset(Path(__file__).with_name("long_tests.txt").read_text(encoding="utf-8").split())
+
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
     config.addinivalue_line("markers", "oracle: many cases of one relation; --share I/N takes some")
-    config.addinivalue_line("markers", "turn: many seconds long; with --share I/N they take turns")
     config.addinivalue_line("markers", "docs: about the documentation, not about the product")
     # A marker of pytest-xdist: one worker runs them all, so that a shared compilation is done once.
     config.addinivalue_line("markers", "xdist_group(name): tests that run in one worker")
@@ -29,7 +30,7 @@ def pytest_configure(config):
 def pytest_addoption(parser):
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption(
-        "--share", type=_part, default=(0, 1), help="cases of the oracles, and turns: I/N"
+        "--share", type=_part, default=(0, 1), help="cases of oracles and of long tests: I/N"
     )
     parser.addoption("--claims", type=Path, help="where processes note the files that they take")
 
@@ -47,7 +48,7 @@ def pytest_collection_modifyitems(config, items):
             if "slow" in item.keywords:
                 item.add_marker(pytest.mark.skip(reason="minutes long; run with --slow"))
     share = config.getoption("--share")
-    left_out = {*_other_cases(items, *share), *_other_turns(items, *share)}
+    left_out = {*_of_other_shares(items, *share)}
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
@@ -61,22 +62,23 @@ def pytest_runtest_protocol(item):
     return True if folder and not _is_mine(item.path, folder) else None
 
 
-def _other_cases(items, index, count):
-    """The cases of oracles that another share runs; a function with fewer than N cases runs whole."""
-    oracles = [item for item in items if "oracle" in item.keywords]
-    function = {item: item.nodeid.partition("[")[0] for item in oracles}
-    sizes, seen = Counter(function.values()), Counter()
-    for item in oracles:
-        name = function[item]
-        if sizes[name] >= count and seen[name] % count != index:
-            yield item
-        seen[name] += 1
+def _of_other_shares(items, index, count):
+    """The cases of oracles and of long tests that another share runs; an oracle with few cases runs whole."""
+    functions = {}
+    for item in items:
+        functions.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    turns = []
+    for cases in functions.values():
+        long = _name(cases[0]) in LONG
+        if len(cases) < count:
+            turns += cases if long else []
+        elif long or "oracle" in cases[0].keywords:
+            yield from (case for k, case in enumerate(cases) if k % count != index)
+    yield from (case for k, case in enumerate(turns) if k % count != index)
 
 
-def _other_turns(items, index, count):
-    """The tests that take their turn in another share."""
-    turns = [item for item in items if "turn" in item.keywords]
-    return [item for k, item in enumerate(turns) if k % count != index]
+def _name(item):
+    return f"{item.path.parent.name}/{item.path.name}::{item.name.partition('[')[0]}"
 
 
 def _longest_first(items):
