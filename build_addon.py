@@ -124,9 +124,8 @@ blender_addon/lib/, checks that they need no library that Blender brings too and
 packs dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and for the extensions platform
 one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --windows the modules for Windows x64 and
 Python {" and ".join(other_systems.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64; with --macos those for Macs,
-with --linux-arm64 and --windows-arm64 those for Linux and Windows on arm64, by zig, which comes from Python's package
-index into build/zig. A build of a commit that is not the tag of a release carries the commit in its version:
-VERSION+g1a2b3c4d."""
+and with --linux-arm64 those for Linux on arm64, both by zig, which comes from Python's package index into build/zig. A
+build of a commit that is not the tag of a release carries the commit in its version: VERSION+g1a2b3c4d."""
 
 PACK_HELP = """Makes the zips of `build` from the modules that lie in blender_addon/lib, which may come from other
 machines: one zip for all systems, and for the extensions platform one for each system that has a module. With --wheels
@@ -208,9 +207,6 @@ def add_build_options(command: argparse.ArgumentParser) -> None:
     flag = {"action": "store_true"}
     command.add_argument("--local", **flag, help="for this machine's Blender; needs no network")
     command.add_argument("--windows", **flag, help="modules for Windows, too, by mingw-w64")
-    command.add_argument(
-        "--windows-arm64", **flag, help="modules for Windows on arm64, too, by zig"
-    )
     command.add_argument("--macos", **flag, help="modules for Macs, too, by zig; never run on one")
     command.add_argument("--linux-arm64", **flag, help="modules for Linux on arm64, too, by zig")
 

@@ -52,9 +52,6 @@ def package() -> str:
 
 
 def main() -> int:
-    few_addresses = importlib.import_module(f"{package()}.core.machine.few_addresses")
-    if "bpy" not in sys.modules:
-        few_addresses.share_one_heap()
     try:
         cli = importlib.import_module(f"{package()}.cli")
     except ModuleNotFoundError as error:
@@ -67,11 +64,6 @@ def main() -> int:
         return 1
     if cli.inside_blender():
         return cli.run()
-    try:
-        few_addresses.reserve_matrices()
-    except MemoryError as error:
-        print(f"medial_axis: {error}", file=sys.stderr)
-        return 1
     code: int = cli.main(sys.argv[1:])
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)  # what is done is done

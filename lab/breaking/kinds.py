@@ -16,7 +16,6 @@ KINDS = {
     "command line out of range": inside.words_out_of_range,
     "cancelled at any instant": inside.cancelled,
     "killed while writing, then resumed": outside.killed,
-    "few addresses": outside.few_addresses,
     "closed pipes": outside.closed_pipes,
     "names of any bytes": outside.odd_names,
     "four at once in one folder": outside.at_once,
@@ -26,7 +25,6 @@ KINDS = {
     "balls written and read again": written.balls,
     "full disks": written.full_disks,
     "memory told and taken": memory.told,
-    "few addresses, every command": memory.few_addresses_of_any_command,
     "few threads, every command": memory.few_threads,
 }
 

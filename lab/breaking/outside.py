@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trials with processes of their own: kills, limits, pipes, names, several at once, batches with bad items."""
+"""Trials with processes of their own: kills, pipes, names, several at once, batches with bad items."""
 
 import json
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -90,30 +89,6 @@ def killed(random: Random, folder: Path) -> None:
     expected = {f"{Path(name).stem}{suffix}" for name in names}
     found = {path.name for path in (folder / "out").iterdir()}
     assert found >= expected | {f"{name}.json" for name in expected}, found
-
-
-def few_addresses(random: Random, folder: Path) -> None:
-    """A sentence or a result, and an end."""
-    (name,) = _shapes(folder, random, 1, int(10 ** random.uniform(2, 4.5)))
-    size = int(random.uniform(250, 1500)) << 20
-
-    def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_AS, (size, size))
-
-    side = str(random.choice(["inner", "both", "outer"]))
-    code, _, err = _run(
-        folder, name, f"a{random.choice(SUFFIXES)}", "--side", side, preexec_fn=limit
-    )
-    if (
-        b"OpenBLAS" in err
-        or code == -signal.SIGSEGV
-        or b"ImportError" in err
-        or b"failed to map" in err
-    ):
-        return  # NumPy itself does not load in so little
-    _no_traceback(err)
-    assert code in (0, 1, 3), (size >> 20, code, err)
-    assert code == 0 or err.startswith(b"medial_axis: "), (size >> 20, err)
 
 
 def closed_pipes(random: Random, folder: Path) -> None:

@@ -3,7 +3,6 @@
 
 import json
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -168,26 +167,6 @@ def test_a_system_without_threads(folder, run, monkeypatch):  # noqa: F811
     assert (code, said) == (cli.DONE, "") and [r["status"] for r in reports] == ["done", "done"]
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
-@pytest.mark.parametrize("megabytes", [300, 420, 520, 640, 800, 1000, 1300])
-def test_little_address_space(folder, program, megabytes):  # noqa: F811
-    """It goes on, or says in a sentence that memory is short; nothing else."""
-    rows = np.random.default_rng(1).normal(size=(60_000, 3))
-    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1.0, 0.7, 0.5))
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
-
-    done = program("many.npy", "many.npz", "--side", "both", "--json", preexec_fn=limit)
-    if b"OpenBLAS" in done.stderr.encode() or done.returncode == -11:
-        pytest.skip("NumPy itself does not load in so little")
-    assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED), done.stderr
-    if done.returncode == cli.FAILED and done.stdout:
-        report = json.loads(done.stdout)
-        assert report["kind"] in ("OutOfMemoryError", "MemoryLimitError"), report["error"]
-    assert files(folder) == ["egg.xyz", "last.xyz", "many.npy"] or done.returncode == cli.DONE
-
-
 # --- streams
 
 
@@ -211,53 +190,6 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
         capture_output=True,
     )
     assert wrong.returncode == cli.USAGE
-
-
-@pytest.mark.oracle
-@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
-@pytest.mark.parametrize("threads", [None, "1"])
-@pytest.mark.parametrize("megabytes", [100, 180, 252, 330])
-def test_products_of_matrices_in_little_address_space(folder, program, megabytes, threads):  # noqa: F811
-    """OpenBLAS would ask forever for its buffer of 128 MB, while NumPy is loaded or at the first product."""
-    rows = np.random.default_rng(1).normal(size=(9000, 3))
-    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1, 1, 0.2))
-    environment = {**program.environment, "OPENBLAS_NUM_THREADS": threads}
-    if threads is None:
-        del environment["OPENBLAS_NUM_THREADS"]
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
-
-    command = [sys.executable, "-m", "medial_axis", "skeleton", "many.npy", "many.swc"]
-    options = {"env": environment, "preexec_fn": limit, "timeout": 60}
-    done = subprocess.run(command, capture_output=True, text=True, **options)
-    if done.returncode == -11 or "failed to map" in done.stderr:
-        pytest.skip("NumPy itself does not load in so little")
-    assert done.returncode in (cli.DONE, cli.FAILED), done.stderr
-    assert done.returncode == cli.DONE or ": Expected " in done.stderr
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
-def test_one_heap_where_addresses_are_few(program):  # noqa: F811
-    """One heap is requested only under a limit, and before NumPy is loaded."""
-    code = (
-        "import ctypes, sys; asked = []\n"
-        "class Library: mallopt = staticmethod(lambda *words: asked.append(words))\n"
-        "ctypes.CDLL = lambda name: Library\n"
-        "from medial_axis import __main__\n"
-        "sys.argv[1:] = ['--version']\n"
-        "try: __main__.main()\n"
-        "except SystemExit: pass\n"
-        "sys.exit(len(asked))\n"
-    )
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
-
-    for before, expected in ((None, 0), (limit, 1)):
-        command = [sys.executable, "-c", code]
-        done = subprocess.run(command, env=program.environment, preexec_fn=before)
-        assert done.returncode == expected
 
 
 # --- signals

@@ -124,7 +124,6 @@ SYSTEMS = {
     "macos-x64": ["_medial.cpython-311-darwin.so"],
     "macos-arm64": ["_medial.cpython-311-darwin.so"],
     "windows-x64": ["_medial.cp311-win_amd64.pyd"],
-    "windows-arm64": ["_medial.cp313-win_arm64.pyd"],
 }
 
 

@@ -31,7 +31,6 @@ NUMPY = re.compile(
 )
 # These choose, count or draw.
 ALLOWED = {
-    "few_addresses.py": 1,  # makes BLAS start
     # Whole numbers.
     "nearness.py": 3,
     "fans.py": 1,

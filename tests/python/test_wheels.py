@@ -53,7 +53,6 @@ def version(monkeypatch):
         ("macos-arm64", "lib/_medial.cpython-311-darwin.so", "cp311-cp311-macosx_11_0_arm64"),
         ("macos-x64", "lib/_medial.cpython-311-darwin.so", "cp311-cp311-macosx_11_0_x86_64"),
         ("windows-x64", "lib/_medial.cp311-win_amd64.pyd", "cp311-cp311-win_amd64"),
-        ("windows-arm64", "lib/_medial.cp313-win_arm64.pyd", "cp313-cp313-win_arm64"),
     ],
 )  # fmt: skip
 def test_names(platform, module, tag):

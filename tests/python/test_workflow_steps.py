@@ -19,7 +19,6 @@ MODULES = {  # by the artifact that a job of systems.yml uploads
     "modules-linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],
     "modules-linux-arm64": ["_medial.cpython-313-aarch64-linux-gnu.so"],
     "modules-windows-x64-3.11": ["_medial.cp311-win_amd64.pyd"],
-    "modules-windows-arm64-3.13": ["_medial.cp313-win_arm64.pyd"],
     "modules-macos-arm64-3.11": ["_medial.cpython-311-darwin.so"],
     "modules-macos-arm64-3.13": ["_medial.cpython-313-darwin.so"],
     "modules-macos-x64-3.11": ["_medial.cpython-311-darwin.so"],

@@ -32,11 +32,7 @@ INEXACT = re.compile(
 # that tells whether a point is inside closed faces, which all directions tell alike, and log the level at which
 # a search for a cell begins. In remeshing cos is asked for 160 degrees alone, beyond which a triangle is a cap.
 OF_CGAL = {"sincos", "log", "cos"}
-# By processor: what every Windows has. For arm64 it is 10 or newer, whose C library is this family.
-OF_WINDOWS = {
-    pe.X64: re.compile(r"KERNEL32\.dll|msvcrt\.dll"),
-    pe.ARM64: re.compile(r"(KERNEL32|ntdll|api-ms-win-crt-[a-z]+-l1-1-0)\.dll"),
-}
+OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}  # every Windows has these
 OF_MACS = ["/usr/lib/libSystem.B.dylib"]
 OLDEST_MACOS = (11, 0)
 PAGE_OF_MACS = {macho.X64: 4096, macho.ARM64: 16384}
@@ -117,30 +113,19 @@ def names_of_macos(processor):
 def check_windows(module):
     """Names of Python that no library has are known to the linker, which has a list of them."""
     image = pe.read(module.read_bytes())
-    digits, processor = re.fullmatch(r"_medial\.cp(\d+)-win_(\w+)", module.stem).groups()
-    if pe.NAMES.get(image.processor) != processor:
-        refuse(module, f"must be for {processor}, found {image.processor:#x}")
+    digits = re.fullmatch(r"_medial\.cp(\d+)-win_amd64", module.stem)[1]
+    if image.processor != pe.X64:
+        refuse(module, f"must be for amd64, found {image.processor:#x}")
     python = f"python{digits}.dll"
-    found = sorted(image.taken)
-    if python not in found or not all(
-        name == python or OF_WINDOWS[image.processor].fullmatch(name) for name in found
-    ):
+    found = sorted(image.libraries)
+    if python not in found or not OF_WINDOWS.issuperset(image.libraries - {python}):
         refuse(module, f"must need {python} and what every Windows has, found {found}")
     only_entry(module, image.exported)
-    if image.processor == pe.ARM64:
-        check_windows_on_arm(module, image)
     size = module.stat().st_size / 1e6
     return [
         f"{module.name}: {size:.1f} MB, needs {', '.join(found)}",
         f"  exports {ENTRY} only",
     ]
-
-
-def check_windows_on_arm(module, image):
-    """Windows loads nothing else there. (For x64 mingw-w64 puts its own functions into the module.)"""
-    calls_nothing_inexact(module, set().union(*image.taken.values()) - {"sin"})  # Clang's sincos
-    if not (image.movable and image.guarded):
-        refuse(module, "must lie at any address and keep data from being run, and does not")
 
 
 def only_entry(module, exported):

@@ -10,16 +10,15 @@ from pathlib import Path
 
 from .debian import download, download_source, extract, labels, require
 
-# By processor: what makes an import library.
-DLLTOOL = {"x64": ["x86_64-w64-mingw32-dlltool"], "arm64": ["llvm-dlltool", "-m", "arm64"]}
+DLLTOOL = "x86_64-w64-mingw32-dlltool"  # makes an import library
 HEADER = re.compile(r"[^/]+/(?:Include/(.+)|PC/(pyconfig\.h)(?:\.in)?)")
 # Names that libpython exports, and whether they are functions.
 EXPORT = re.compile(r"^\w+ ([A-Z]) (_?Py\w+)", re.MULTILINE)
 
 
-def fetch_for_windows(version, suite, folder, processor="x64"):
+def fetch_for_windows(version, suite, folder):
     """Python's headers, pybind11's, and the import library libpython3X.a; returns what they came from."""
-    require(DLLTOOL[processor][0])
+    require(DLLTOOL)
     with tempfile.TemporaryDirectory() as private:
         source = download_source(Path(private, "source"), suite, f"python{version}")
         names = [f"libpython{version}", "pybind11-dev"]
@@ -29,7 +28,7 @@ def fetch_for_windows(version, suite, folder, processor="x64"):
         unpack_headers(source, folder / f"python{version}")
         (exporting,) = Path(private).glob(f"all/usr/lib/*/libpython{version}.so.*.*")
         name = f"python{version.replace('.', '')}"
-        make_import_library(exporting, name, folder, DLLTOOL[processor])
+        make_import_library(exporting, name, folder)
         return labels([source, *packages])
 
 
@@ -44,10 +43,10 @@ def unpack_headers(source, folder):
                 target.write_bytes(archive.extractfile(member).read())
 
 
-def make_import_library(exporting, name, folder, dlltool):
+def make_import_library(exporting, name, folder):
     """Says that python3X.dll has what Debian's libpython has: the names of Python's interface are the same."""
     symbols = subprocess.check_output(["nm", "-D", "--defined-only", exporting], text=True)
     exports = [name if kind == "T" else f"{name} DATA" for kind, name in EXPORT.findall(symbols)]
     definition = folder / f"{name}.def"
     definition.write_text("\n".join([f"LIBRARY {name}.dll", "EXPORTS", *exports, ""]))
-    subprocess.run([*dlltool, "-d", definition, "-l", folder / f"lib{name}.a"], check=True)
+    subprocess.run([DLLTOOL, "-d", definition, "-l", folder / f"lib{name}.a"], check=True)

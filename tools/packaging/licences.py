@@ -51,21 +51,16 @@ The compiled modules of this add-on, lib/_medial.*, contain code of others, as f
 GNU General Public License, version 3 or later: see LICENSE, whose text also holds for the parts below that name it.
 """
 _BY_ZIG = """LLVM's libc++, libc++abi and compiler-rt: Apache-2.0 WITH LLVM-exception
-They are compiled into modules for systems other than Linux and Windows on x86-64. These come from: {origin}.
+They are compiled into the modules for Macs and for Linux on arm64. These come from: {origin}.
 
 {terms}"""
-_FOR_WINDOWS_BY_ZIG = """mingw-w64: ZPL-2.1 and others
-Its start of a library is in the modules for Windows on arm64, as zig brings it.
-
-{terms}"""
-_OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so", "-win_arm64.pyd")
+_OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so")
 # By the folder in which headers of Pythons lie: how names of modules compiled with them end, and words for the system.
 _SYSTEM_OF_HEADERS = {
     "python": ("-x86_64-linux-gnu.so", ""),
     "linux-arm64": ("-aarch64-linux-gnu.so", " for Linux on arm64"),
     "macos": ("-darwin.so", " for Macs"),
     "windows": ("-win_amd64.pyd", " for Windows"),
-    "windows-arm64": ("-win_arm64.pyd", " for Windows on arm64"),
 }
 _RULE = "=" * 100
 
@@ -93,13 +88,8 @@ def _parts_of_zig(modules: list[str]) -> list[str]:
     origin = zig.origin()
     if origin is None or not any(name.endswith(_OF_ZIG) for name in modules):
         return []
-    library = zig.program().parent / "lib"
-    terms = (library / "libcxx/LICENSE.TXT").read_text(encoding="utf-8")
-    parts = [_BY_ZIG.format(origin=", ".join(origin), terms=terms)]
-    if any(name.endswith("-win_arm64.pyd") for name in modules):
-        terms = (library / "libc/mingw/COPYING").read_text(encoding="utf-8")
-        parts.append(_FOR_WINDOWS_BY_ZIG.format(terms=terms))
-    return parts
+    terms = (zig.program().parent / "lib/libcxx/LICENSE.TXT").read_text(encoding="utf-8")
+    return [_BY_ZIG.format(origin=", ".join(origin), terms=terms)]
 
 
 def _package(component: Component) -> tuple[str, str]:

@@ -35,13 +35,10 @@ PACK = {
 }
 BUILD = {**CORE, **PACK}
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
-ZIG = {"pip, which brings zig": "python3-pip"}
-LINUX_ARM64 = {**ZIG, "strip for all systems": "llvm"}
-WINDOWS_ARM64 = {**ZIG, "strip and import libraries for all systems": "llvm"}
+LINUX_ARM64 = {"pip, which brings zig": "python3-pip", "strip for all systems": "llvm"}
 MACOS = {**LINUX_ARM64, "Maven, which brings Python's headers": "maven"}
 OF_SYSTEM = {
     "windows": WINDOWS,
-    "windows_arm64": WINDOWS_ARM64,
     "macos": MACOS,
     "linux_arm64": LINUX_ARM64,
 }

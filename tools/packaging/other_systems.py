@@ -15,8 +15,6 @@ from .terminal import Failure, build_preset, run
 # The Pythons of the Blenders on these systems, and the suite of Debian that the headers come from.
 WINDOWS_PYTHONS = {"3.11": "bookworm", "3.13": "trixie"}
 MAC_PYTHONS = {"3.11": "trixie", "3.13": "trixie"}
-# blender.org has none for arm64 before 4.4.
-WINDOWS_ARM_PYTHONS = WINDOWS_PYTHONS
 # Debian's Blenders; blender.org has none for Linux on arm64.
 LINUX_ARM_PYTHONS = {"3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
 # No Blender since 5.0 is made for Macs with Intel's processors.
@@ -31,17 +29,6 @@ def build_for_windows() -> list[Path]:
     names = [f"_medial.cp{headers.digits(version)}-win_amd64.pyd" for version in folders]
     strip = "x86_64-w64-mingw32-strip"
     return [library.put(paths.BUILD / "mingw" / name, strip) for name in names]
-
-
-def build_for_windows_arm() -> list[Path]:
-    zig.bring()
-    bring = functools.partial(fetch_for_windows, processor="arm64")
-    folders = headers.folders_of(
-        WINDOWS_ARM_PYTHONS, paths.BUILD / "python" / "windows-arm64", bring
-    )
-    build_preset("zig-windows-arm64", headers.definition_of(folders))
-    names = [f"_medial.cp{headers.digits(version)}-win_arm64.pyd" for version in folders]
-    return [library.put(paths.BUILD / "zig-windows-arm64" / name, "llvm-strip") for name in names]
 
 
 def build_for_macs() -> list[Path]:
@@ -86,7 +73,6 @@ def stripped(module: Path) -> bytes:
 
 BUILDERS = {
     "windows": build_for_windows,
-    "windows_arm64": build_for_windows_arm,
     "macos": build_for_macs,
     "linux_arm64": build_for_linux_arm,
 }

@@ -22,7 +22,6 @@ PLATFORMS = {
     "macos-x64": "-darwin.so",
     "macos-arm64": "-darwin.so",
     "windows-x64": "-win_amd64.pyd",
-    "windows-arm64": "-win_arm64.pyd",
 }
 _SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".yaml"}
 

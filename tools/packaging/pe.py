@@ -6,11 +6,8 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
-X64, ARM64 = 0x8664, 0xAA64  # processors
-NAMES = {X64: "amd64", ARM64: "arm64"}  # as names of modules have them
-_IMAGE, _WIDE, _BY_NUMBER = b"PE\0\0", 0x20B, 1 << 63
-_ANYWHERE, _NOT_RUN = 0x40, 0x100  # Windows may choose the address; data is not run as code
-_EXPORTS, _IMPORTS, _PLACES = 0, 1, 5  # rows of the table of directories
+X64 = 0x8664  # the processor that names of modules call amd64
+_IMAGE, _WIDE = b"PE\0\0", 0x20B
 
 
 @dataclass(frozen=True)
@@ -18,10 +15,8 @@ class Image:
     """A library by what it says about itself."""
 
     processor: int
-    taken: dict[str, set[str]]  # by library: the names taken from it, or '#' and the number
+    libraries: set[str]  # those that it needs
     exported: list[str]
-    movable: bool  # Windows may load it at any address, and learns which places change then
-    guarded: bool  # its data cannot be run as code
 
 
 def read(data: bytes) -> Image:
@@ -31,18 +26,12 @@ def read(data: bytes) -> Image:
         raise ValueError("no library for Windows")
     processor, sections, _, _, _, size, _ = struct.unpack_from("<2H3I2H", data, head + 4)
     options = head + 24
-    kind, flags = (struct.unpack_from("<H", data, options + at)[0] for at in (0, 70))
+    (kind,) = struct.unpack_from("<H", data, options)
     if kind != _WIDE:
         raise ValueError("no library of 64 bits")
     image = _Sections(data, options + size, sections)
-    starts = [struct.unpack_from("<I", data, options + 112 + 8 * row)[0] for row in range(6)]
-    return Image(
-        processor,
-        _taken(image, starts[_IMPORTS]),
-        _exported(image, starts[_EXPORTS]),
-        bool(flags & _ANYWHERE and starts[_PLACES]),
-        bool(flags & _NOT_RUN),
-    )
+    exports, _, imports = struct.unpack_from("<3I", data, options + 112)
+    return Image(processor, _libraries(image, imports), _exported(image, exports))
 
 
 class _Sections:
@@ -67,24 +56,12 @@ class _Sections:
         raise ValueError(f"no section holds the address {address}")
 
 
-def _taken(image: _Sections, table: int) -> dict[str, set[str]]:
-    found: dict[str, set[str]] = {}
-    while table:
-        names, _, _, library, places = image.words("<5I", table)
-        if not library:
-            break
-        found.setdefault(image.text(library), set()).update(_names(image, names or places))
+def _libraries(image: _Sections, table: int) -> set[str]:
+    found = set()
+    while table and (library := image.words("<I", table + 12)[0]):
+        found.add(image.text(library))
         table += 20
     return found
-
-
-def _names(image: _Sections, row: int) -> list[str]:
-    names = []
-    while entry := image.words("<Q", row)[0]:
-        by_number = entry & _BY_NUMBER
-        names.append(f"#{entry & 0xFFFF}" if by_number else image.text(entry + 2))
-        row += 8
-    return names
 
 
 def _exported(image: _Sections, table: int) -> list[str]:

@@ -26,7 +26,6 @@ TAGS = {
     "macos-x64": "macosx_11_0_x86_64",
     "macos-arm64": "macosx_11_0_arm64",
     "windows-x64": "win_amd64",
-    "windows-arm64": "win_arm64",
 }
 _METADATA = """\
 Metadata-Version: 2.1

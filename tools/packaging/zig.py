@@ -25,7 +25,6 @@ TARGETS = {
     "zig-macos-arm64": "aarch64-macos.11.0",
     "zig-macos-x64": "x86_64-macos.11.0",
     "zig-linux-arm64": "aarch64-linux-gnu.2.28",
-    "zig-windows-arm64": "aarch64-windows-gnu",
 }
 
 

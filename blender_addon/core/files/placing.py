@@ -11,10 +11,7 @@ from ..small_matrices import stretches
 
 
 def is_identity(transform: Floats) -> bool:
-    """Return whether a transform changes nothing.
-
-    LAPACK is not used: its OpenBLAS waits forever for memory if addresses are limited.
-    """
+    """Return whether a transform changes nothing."""
     return np.array_equal(transform[:3], np.eye(3, 4))
 
 
