@@ -153,7 +153,7 @@ def test_filter_by_limb_takes_wires_only():
 
 def two_balls():
     """Vertices with radii 1 and 0.5, ten apart."""
-    thing = link("Two", [(0, 0, 0), (10, 0, 0)], edges=[(0, 1)])
+    thing = link("Two", [(0, 0, 0), (10, 0, 0)])
     radius = thing.data.attributes.new("ma_radius", "FLOAT", "POINT")
     radius.data.foreach_set("value", np.array([1.0, 0.5], np.float32))
     return thing

@@ -13,6 +13,7 @@ from scene import (
     contents,
     ellipsoid,
     exclude,
+    link,
     positions,
     reports,
     result_of,
@@ -68,6 +69,17 @@ def test_it_is_made_once_and_follows_the_axis():
     compute(source, side="INNER")
     assert made.data == result_of(source).data
     assert volume(evaluated(made)) == pytest.approx(8 * volume_before, rel=0.02)
+
+
+def test_along_an_edge_radii_are_linear():
+    """Balls at its ends alone would be two beads."""
+    thing = link("Cone", [(0, 0, 0), (2, 0, 0)], edges=[(0, 1)])
+    radius = thing.data.attributes.new("ma_radius", "FLOAT", "POINT")
+    radius.data.foreach_set("value", np.array([0.5, 0.3], np.float32))
+    addon("bridge.nodes.groups").add_modifier(thing, "REBUILD")
+    caps, slope = (ball_volume(0.5) + ball_volume(0.3)) / 2, np.pi * 2 / 3
+    exact = caps + slope * (0.5**2 + 0.5 * 0.3 + 0.3**2)
+    assert volume(evaluated(thing)) == pytest.approx(exact, rel=0.03)
 
 
 def test_offset_of_a_torus_is_a_thicker_torus():
@@ -183,8 +195,7 @@ def test_colours_change_without_teeth():
     """Next to each other vertices have nearly the same radius; that of the nearest ball alone jumps from row to row."""
     bpy.ops.mesh.primitive_cone_add(vertices=64, radius1=1.0, depth=3.0)
     compute(form="CLEAN", sampling="SURFACE", samples=4_000)
-    bpy.ops.object.medial_axis_rebuild()
-    made = next(thing for thing in bpy.data.objects if thing.name.endswith("Rebuilt"))
+    made = rebuild(bpy.data.objects["Cone"], Voxel=0.015)
     mesh = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     radius = attribute(mesh, "ma_radius")
     edges = np.array([edge.vertices for edge in mesh.edges])
