@@ -24,7 +24,7 @@ from ..errors import (
     out_of_memory,
 )
 from ..files.names import LONGEST, bytes_of
-from ..files.whole_file import write_whole
+from ..files.writing import write_whole
 from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints
 from ..cover.ball_cover import Balls
 from ..cover.robot_links import write_collisions, write_geoms
-from ..cover.write_balls import check_robot
 from ..errors import MedialAxisError, ReadError
 from ..files.text import open_file
 from ..machine.memory_limit import MemoryLimit
@@ -125,7 +124,6 @@ def _geometry_of(
 
 def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:
     """Return an element for each shape with attributes that it has not; the first has the name, all share the mass."""
-    check_robot(balls)
     stream = BytesIO()
     (write_geoms if tag == "geom" else write_collisions)(balls, stream)
     lines = [line.strip() for line in stream.getvalue().decode("ascii").splitlines()]
