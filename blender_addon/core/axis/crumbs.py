@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..arrays import Flags, Floats, Ints, Longs
 from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
-from .cut import lowest_of_piece
+from ..united import united
 from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
 
@@ -73,7 +73,7 @@ def without_crumbs(axis: MedialAxis, smallest: float) -> MedialAxis:
 def _piece_of(wires: Ints, small: Flags) -> Longs:
     """Return the lowest vertex of the piece of each vertex, (v,); -1 where a vertex of the piece is not small."""
     both = wires[small[wires].all(axis=1)]
-    piece = lowest_of_piece(len(small), np.arange(0, 2 * len(both), 2), both.ravel())
+    piece = united(len(small), both)
     mixed = wires[small[wires].any(axis=1) & ~small[wires].all(axis=1)].ravel()
     large = np.zeros(len(small), np.bool_)
     large[piece[mixed]] = True

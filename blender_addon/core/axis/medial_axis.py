@@ -16,6 +16,7 @@ from .structure import Structure
 # very dense, or because the ball of the faces was not empty or too far away; or it is where the ball touches the faces,
 # on a smooth rim, on a sharp convex edge or in a corner.
 VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE, IN_CORNER = range(6)
+INNER, OUTER = 1, 2  # values of `MedialAxis.side`
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,3 +151,30 @@ class MedialAxis:
     def is_empty(self) -> bool:
         """Whether there is nothing at all: no facet, no edge, no vertex."""
         return len(self.vertices) == 0
+
+
+# The fields of an axis as published, which `_medial.MedialMesh` has, too.
+AS_PUBLISHED = tuple(
+    name for name in MedialAxis.__dataclass_fields__ if name not in ("level", "structure")
+)
+
+
+def without_samples(
+    vertices: Floats, radius: Floats, face_offsets: Ints, face_vertices: Ints, edges: Ints
+) -> MedialAxis:
+    """Return an inner axis whose facets have no samples: `generators` are -1, `theta` and `rho` are infinite."""
+    count = len(face_offsets) - 1
+    always = np.full(count, np.inf)
+    return MedialAxis(
+        vertices=vertices,
+        radius=radius,
+        face_offsets=face_offsets,
+        face_vertices=face_vertices,
+        theta=always,
+        rho=always,
+        side=np.full(count, INNER, np.int32),
+        generators=np.full((count, 2), -1, np.int32),
+        unbounded=0,
+        zero_area=0,
+        edges=edges,
+    )
