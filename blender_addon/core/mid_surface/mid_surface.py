@@ -330,15 +330,13 @@ def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
         )
     if share >= _MOST:
         return ()
-    if least >= spacing:
-        return (
-            f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides "
-            "what counts as thin",
-        )
-    return (
-        f"the sheets have {percent(share)} of the volume; what is not thin is left out, as Least Width decides, and "
-        f"so are tips that are narrower than samples are apart, {spacing:.2g}; more samples reach farther into these",
+    tips = (
+        f", as Least Width decides, and so are tips that are narrower than samples are apart, {spacing:.2g}; more "
+        "samples reach farther into these"
     )
+    if least >= spacing:
+        tips = ", and Least Width decides what counts as thin"
+    return (f"the sheets have {percent(share)} of the volume; what is not thin is left out{tips}",)
 
 
 def _torn(triangles: Ints, found: Computation, thin: ThinSheets) -> tuple[str, ...]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -76,18 +76,7 @@ class Scan:
     def figures(self) -> dict[str, Any]:
         """The figures for a report."""
         moved = None if self.moved is None else float(np.median(self.moved))
-        names = (
-            "given",
-            "kept",
-            "spacing",
-            "noise",
-            "kurtosis",
-            "mates",
-            "duplicates",
-            "outliers",
-            "border",
-        )
-        return {**{name: getattr(self, name) for name in names}, "moved": moved}
+        return {**asdict(self), "moved": moved}
 
 
 def prepared(

@@ -142,14 +142,10 @@ def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
 
 def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
     """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
-    if not of_axis:
-        return DegenerateInputError(
-            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-            "Solidify modifier)"
-        )
+    others = ", or choose Side Both, or Inside Decided By Normals for what lies behind it"
     return DegenerateInputError(
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it"
+        f"Solidify modifier){others if of_axis else ''}"
     )
 
 
