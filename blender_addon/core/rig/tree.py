@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..arrays import Floats
+from ..curves.smooth_line import at_marks, marks_of
 from ..skeleton.skeleton import Skeleton
 from .pelvis import pelvis_of
 
@@ -48,8 +49,7 @@ class Chain:
     marks: Floats = field(init=False)
 
     def __post_init__(self) -> None:
-        steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
-        object.__setattr__(self, "marks", np.concatenate(([0.0], np.cumsum(steps))))
+        object.__setattr__(self, "marks", marks_of(self.points))
 
     @property
     def length(self) -> float:
@@ -63,14 +63,9 @@ class Chain:
 
     def at(self, marks: Floats) -> tuple[Floats, Floats, Floats]:
         """Return points, radii and shares of the branch at some lengths from the start."""
-        points = np.column_stack(
-            [np.interp(marks, self.marks, self.points[:, axis]) for axis in range(3)]
-        )
-        return (
-            points,
-            np.interp(marks, self.marks, self.radius),
-            np.interp(marks, self.marks, self.along),
-        )
+        table = np.column_stack((self.points, self.radius, self.along))
+        found = at_marks(marks, self.marks, table)
+        return found[:, :3].copy(), found[:, 3].copy(), found[:, 4].copy()
 
 
 def trees_of(skeleton: Skeleton) -> list[list[Chain]]:
@@ -123,12 +118,12 @@ def _tree(
                 other = start if turned else end
                 if through.get(other) == branch and start != end:
                     arrives[other] = len(found)
-                    found.append(
-                        _placed(chain, arrives[node], away[node], bool(degree[other] == 1))
-                    )
+                    is_tip = bool(degree[other] == 1)
                 else:
                     half = (away[other] + chain.length - away[node]) / 2
-                    found.append(_placed(_until(chain, half), arrives[node], away[node], False))
+                    chain, is_tip = _until(chain, half), False
+                place = {"parent": arrives[node], "from_root": away[node], "to_tip": is_tip}
+                found.append(replace(chain, **place))
     return [replace(chain, rim=_rim(found, number)) for number, chain in enumerate(found)]
 
 
@@ -168,28 +163,17 @@ def _chain(skeleton: Skeleton, branch: int) -> Chain:
 
 
 def _turned(chain: Chain) -> Chain:
-    return Chain(
-        chain.branch, chain.points[::-1], chain.radius[::-1], chain.along[::-1], -1, 0.0, False
-    )
-
-
-def _placed(chain: Chain, parent: int, from_root: float, to_tip: bool) -> Chain:
-    return Chain(chain.branch, chain.points, chain.radius, chain.along, parent, from_root, to_tip)
+    whole = chain.points[::-1], chain.radius[::-1], chain.along[::-1]
+    return Chain(chain.branch, *whole, -1, 0.0, False)
 
 
 def _until(chain: Chain, length: float) -> Chain:
     """Return the first part of a chain."""
     kept = max(1, int(np.searchsorted(chain.marks, length)))
-    point, radius, along = chain.at(np.array([length]))
-    return Chain(
-        chain.branch,
-        np.concatenate((chain.points[:kept], point)),
-        np.concatenate((chain.radius[:kept], radius)),
-        np.concatenate((chain.along[:kept], along)),
-        -1,
-        0.0,
-        False,
-    )
+    first = chain.points[:kept], chain.radius[:kept], chain.along[:kept]
+    last = chain.at(np.array([length]))
+    points, radius, along = (np.concatenate(pair) for pair in zip(first, last, strict=True))
+    return Chain(chain.branch, points, radius, along, -1, 0.0, False)
 
 
 def _nearest_first(
