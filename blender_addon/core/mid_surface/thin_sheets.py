@@ -15,6 +15,7 @@ from ..axis.medial_axis import ON_CREASE, LevelValues, MedialAxis
 from ..axis.structure import Structure
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
+from ..shape.triangles import equal_pairs
 from ..united import united
 from .sheet_faces import TRIFLE
 
@@ -158,9 +159,7 @@ def _own_parts(axis: MedialAxis, structure: Structure, patches: Ints) -> tuple[I
     own = between(np.arange(len(part)), part)
     _, of_corner = _edges(axis)
     facet = np.repeat(np.arange(len(part)), np.diff(axis.face_offsets))
-    order = np.argsort(of_corner, kind="stable")
-    same = of_corner[order[1:]] == of_corner[order[:-1]]
-    beside = np.column_stack((facet[order[:-1]], facet[order[1:]]))[same]
+    beside = facet[np.column_stack(equal_pairs(of_corner))]
     beside = np.concatenate((beside, beside[:, ::-1]))
     while True:
         pairs = beside[~own[beside[:, 0]] & own[beside[:, 1]]]
@@ -218,9 +217,7 @@ def _in_wide_pieces(
     _, of_corner = _edges(axis)
     facet = np.repeat(np.arange(count), np.diff(axis.face_offsets))
     rows = np.flatnonzero(kept[facet])
-    rows = rows[np.argsort(of_corner[rows], kind="stable")]
-    same = of_corner[rows[1:]] == of_corner[rows[:-1]]
-    piece = united(count, np.column_stack((facet[rows[:-1]], facet[rows[1:]]))[same])
+    piece = united(count, facet[rows[np.column_stack(equal_pairs(of_corner[rows]))]])
     radii = np.add.reduceat(axis.radius[axis.face_vertices], axis.face_offsets[:-1])
     volume = np.bincount(piece, 2.0 * areas * radii / np.diff(axis.face_offsets), count)
     area = np.bincount(piece, areas, count)

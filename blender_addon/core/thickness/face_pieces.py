@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints, Longs
 from ..samples.walls import Walls
 from ..shape.shape import Shape
+from ..shape.triangles import unit_normals
 from ..small_matrices import times
 
 
@@ -53,8 +54,7 @@ def face_pieces(shape: Shape, some: NDArray[np.intp], places: Walls) -> tuple[Fl
 
 def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> Longs:
     """(m,) the number of parts into which each side of a face is cut."""
-    a, b, c = shape.points[shape.triangles[faces]].transpose(1, 0, 2)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    area = unit_normals(shape.points[shape.triangles[faces]])[1] / 2
     count = len(shape.triangles)
     total = np.bincount(places.faces, places.spacing, count)
     spacing = total[faces] / np.bincount(places.faces, minlength=count)[faces]
