@@ -213,7 +213,7 @@ MUTATIONS = (
     ),
     # ---- skeleton
     _bug(
-        "skeleton/simplify.py",
+        "skeleton/chords.py",
         "/ tolerance[inner]",
         "/ tolerance[first]",
         "one tolerance decides about a whole chain",

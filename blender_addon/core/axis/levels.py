@@ -22,9 +22,8 @@ from ..samples.analysed import Analysed
 from ..settings import Form, Mesh, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
-from .gap import gap_of
 from .medial_axis import IN_CORNER, INNER, ON_CREASE, LevelValues, MedialAxis
-from .slider_range import SliderRange, ranges_of, shown_areas
+from .slider_range import SliderRange, gap_of, ranges_of, shown_areas
 from .smooth_curve import smooth_curve
 from .structure import structure_of
 

@@ -45,7 +45,7 @@ class LevelValues:
     ranges : dict of SliderRange
         The ranges of Simplify, Trim Rims and Shortest Limb, by the names of the settings; empty: not known.
     gap : float or None
-        The value of Simplify in a clear gap between thin sheets and others; None where there is none (`gap.py`).
+        The value of Simplify in a clear gap between thin sheets and others; None where there is none (`slider_range.py`).
     loops_left_out : int
         The number of loops that the samples show, and that a curve with less Detail does not have.
     removals : int or None

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..errors import Severe
 from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import differs_warning, sampling_warnings
 from ..samples.sides import cocone_warnings, look_inward, pole_warnings
 from ..settings import SamplingMode, Side, SidesFrom
-from ..severe import Severe
 from ..shape.shape import Shape
 
 _OF_POINTS_ALONE = (SidesFrom.TIGHT_COCONE, SidesFrom.POLES)

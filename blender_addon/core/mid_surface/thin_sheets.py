@@ -10,8 +10,8 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..axis.directions import corners_after, facet_areas, facet_normals
-from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import ON_CREASE, LevelValues, MedialAxis
+from ..axis.polygon_triangles import triangulate_facets
 from ..axis.structure import Structure
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors

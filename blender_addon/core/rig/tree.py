@@ -11,10 +11,10 @@ import numpy as np
 from ..arrays import Floats
 from ..curves.smooth_line import at_marks, marks_of
 from ..skeleton.skeleton import Skeleton
-from .pelvis import pelvis_of
 
 _FAR = 4.0  # chains are compared up to this many radii from their fork; chosen: unseen
 _SAMPLES = 65  # at this many places
+_AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this share of its radius; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,3 +196,31 @@ def _nearest_first(
                 queue, (so_far + length[leaving], end if start == node else start, leaving)
             )
     return away, through
+
+
+def pelvis_of(
+    skeleton: Skeleton, nodes: list[int], at: dict[int, list[int]], ends: list[tuple[int, int]]
+) -> int:
+    """Return the pelvis of a connected part: the node, of ascending `nodes`, from which all bones go out.
+
+    It is the fork with the thickest ball. Of forks that are nearly as thick, it is the one with the longest limb, for
+    legs and tails are longer than arms. A skeleton without a fork starts at its thicker end. `at` has the branches at
+    each node, `ends` the nodes at the ends of each branch.
+    """
+    degree = skeleton.degree
+    forks = [node for node in nodes if degree[node] > 2] or nodes
+    radius = skeleton.radius[forks]
+    thick = [node for node in forks if skeleton.radius[node] >= _AS_THICK * radius.max()]
+    limbs = [
+        max(
+            (_length(skeleton, b) for b in at[node] if (degree[list(ends[b])] == 1).any()),
+            default=0.0,
+        )
+        for node in thick
+    ]
+    return thick[int(np.argmax(limbs))]
+
+
+def _length(skeleton: Skeleton, branch: int) -> float:
+    steps = np.diff(skeleton.points[skeleton.branches[branch]], axis=0)
+    return float(np.linalg.norm(steps, axis=1).sum())

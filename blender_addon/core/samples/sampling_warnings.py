@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..errors import Severe
 from ..settings import SamplingMode
-from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.outward_faces import reading_warnings
 from ..shape.own_frame import rounding_warning

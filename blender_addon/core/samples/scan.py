@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Floats
+from ..errors import Severe
 from ..machine import native
 from ..machine.progress import Progress
 from ..settings import Prepare, Settings, SidesFrom
-from ..severe import Severe
 from ..shape.shape import Shape
 from .density import percent
 

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
-from ..errors import DegenerateInputError, InvalidInputError
+from ..errors import DegenerateInputError, InvalidInputError, Severe
 from ..machine import native
 from ..settings import Side, SidesFrom
-from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of

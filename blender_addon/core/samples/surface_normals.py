@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..settings import SamplingMode, SidesFrom
 from ..shape.shape import Shape
 from ..small_matrices import dot

@@ -29,8 +29,7 @@ from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
 from ..shape.shape import Shape
-from .centre import centre_of_mass
-from .chords import keep_inside, kept_inside
+from .chords import keep_inside, kept_inside, kept_points
 from .chosen_ends import join_ends
 from .fill import Filled, filled
 from .forks import draw_forks
@@ -38,8 +37,7 @@ from .join_pieces import join_pieces, no_joins
 from .middle import inscribe, lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
-from .simplify import kept_points
-from .skeleton import Skeleton, skeleton_of
+from .skeleton import Skeleton, centre_of_mass, skeleton_of
 from .warnings import fill_warnings, skeleton_warnings
 
 

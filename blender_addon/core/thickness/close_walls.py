@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..samples.chosen import ChosenSamples
 from ..samples.walls import Walls
 from ..settings import Between
