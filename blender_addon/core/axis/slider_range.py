@@ -31,13 +31,9 @@ class SliderRange:
 
     At a length at which a part of the whole goes at once, such as a large sheet, the share is in the middle of the two
     that are possible, so that a slider between them shows the nearer one.
-
-    Parameters
-    ----------
-    lengths, shares : tuple of k float
-        Both rise; the lengths are in percent of the diagonal.
     """
 
+    # Both rise; the lengths are in percent of the diagonal
     lengths: tuple[float, ...]
     shares: tuple[float, ...]
 

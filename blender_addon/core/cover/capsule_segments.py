@@ -30,21 +30,11 @@ _ROUND = 16  # a round of proposals follows when one of so many elements is new
 
 @dataclass(frozen=True, eq=False)
 class Witnesses:
-    """Places that tell what a choice of capsules loses.
+    """Places that tell what a choice of capsules loses."""
 
-    Parameters
-    ----------
-    places : (q, 3) float64
-        Ascending in x.
-    reach : (q,) float64
-        How near to a capsule each must be: 0 in the solid, a bound on the surface.
-    weight : (q,) float64
-        What it costs to leave it.
-    """
-
-    places: Floats
-    reach: Floats
-    weight: Floats
+    places: Floats  # (q, 3) Ascending in x
+    reach: Floats  # (q,) How near to a capsule each must be: 0 in the solid, a bound on the surface
+    weight: Floats  # (q,) What it costs to leave it
 
     @staticmethod
     def of(inside: Floats, surface: Floats, bound: float) -> Witnesses:

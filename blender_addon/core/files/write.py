@@ -41,24 +41,13 @@ from .writing import (
 
 @dataclass(frozen=True)
 class Format:
-    """A format describes one kind of file.
+    """A format describes one kind of file."""
 
-    Parameters
-    ----------
-    label : str
-        The name that menus and file dialogs show.
-    write : callable
-        It takes the axis and a binary stream.
-    write_triangles : callable or None
-        It writes the axis as triangles in text; it is None if the format has no such variant.
-    holds_edges : bool
-        Whether triangles in text include edges without a facet.
-    """
-
-    label: str
-    write: Callable[[Any, BinaryIO], None]
+    label: str  # The name that menus and file dialogs show
+    write: Callable[[Any, BinaryIO], None]  # It takes the axis and a binary stream
+    # It writes the axis as triangles in text; it is None if the format has no such variant
     write_triangles: Callable[[Any, BinaryIO], None] | None = None
-    holds_edges: bool = True
+    holds_edges: bool = True  # Whether triangles in text include edges without a facet
 
 
 def export_axis(

@@ -30,41 +30,19 @@ _SLIVER = 0.02  # a facet with less area of a disc of its perimeter has no slope
 
 @dataclass(frozen=True, eq=False)
 class ThinSheets:
-    """Triangles of the sheets that are walls; the vertices are those of the axis.
+    """Triangles of the sheets that are walls; the vertices are those of the axis."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    radius : (v,) float64
-    at_edge : (v,) bool
-        On a sharp convex edge of the solid.
-    triangles : (t, 3) int32
-        Those of a sheet turn the same way.
-    part : (t,) int32
-        The sheet of each triangle, 0 to `parts` - 1.
-    facet : (t,) int64
-        The facet of the axis that each triangle is a part of.
-    facing : (t,) bool
-        Whether the walls face each other there; no others tell where their sheet goes on.
-    sliver : (t,) bool
-        The facet is hardly more than a line, and tells nothing.
-    normals : (t, 3) float64
-        Unit normals of the facets that the triangles are of.
-    slopes : (t, 3) float64
-        How the radius changes along those facets.
-    parts : int
-    """
-
-    vertices: Floats
-    radius: Floats
-    at_edge: Flags
-    triangles: Ints
-    part: Ints
-    facet: Longs
+    vertices: Floats  # (v, 3)
+    radius: Floats  # (v,)
+    at_edge: Flags  # (v,) On a sharp convex edge of the solid
+    triangles: Ints  # (t, 3) Those of a sheet turn the same way
+    part: Ints  # (t,) The sheet of each triangle, 0 to `parts` - 1
+    facet: Longs  # (t,) The facet of the axis that each triangle is a part of
+    # (t,) Whether the walls face each other there; no others tell where their sheet goes on
     facing: Flags
-    sliver: Flags
-    normals: Floats
-    slopes: Floats
+    sliver: Flags  # (t,) The facet is hardly more than a line, and tells nothing
+    normals: Floats  # (t, 3) Unit normals of the facets that the triangles are of
+    slopes: Floats  # (t, 3) How the radius changes along those facets
     parts: int
 
 

@@ -19,32 +19,18 @@ _AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this shar
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """A chain is a branch, or half of one that closes a loop, from its start towards the tips.
-
-    Parameters
-    ----------
-    branch : int
-    points : (n, 3) float64
-    radius : (n,) float64
-    along : (n,) float64
-        The points lie at these shares of the length of the branch; they descend where the chain runs against it.
-    parent : int
-        The chain at whose end this one starts; -1 at a root. Parents come before their children.
-    from_root : float
-        The length of the way from the root to the start.
-    to_tip : bool
-        The chain ends in a tip.
-    rim : float
-        After this length the chain has left the balls of its fork, and of the other chains there, for good.
-    """
+    """A chain is a branch, or half of one that closes a loop, from its start towards the tips."""
 
     branch: int
-    points: Floats
-    radius: Floats
+    points: Floats  # (n, 3)
+    radius: Floats  # (n,)
+    # (n,) The points lie at these shares of the length of the branch; they descend where the chain runs against it
     along: Floats
+    # The chain at whose end this one starts; -1 at a root. Parents come before their children.
     parent: int
-    from_root: float
-    to_tip: bool
+    from_root: float  # The length of the way from the root to the start
+    to_tip: bool  # The chain ends in a tip
+    # After this length the chain has left the balls of its fork, and of the other chains there, for good
     rim: float = 0.0
     marks: Floats = field(init=False)
 

@@ -29,30 +29,18 @@ _FORMATS: dict[str, type[Urdf] | type[Mjcf]] = {"robot": Urdf, "mujoco": Mjcf}
 
 
 class LinkGeometry(NamedTuple):
-    """The collision geometry of a link, in the link's frame.
-
-    Parameters
-    ----------
-    name : str
-    points : (n, 3) float64
-    triangles : (m, 3) int32
-    spans : tuple of (int, int)
-        The first byte of each element that it comes from, and the one behind its last.
-    kinds : tuple of str
-        The shapes that it consists of, such as "sphere", in the order of the alphabet.
-    kept : tuple of (str, str)
-        The attributes of elements in their place: the name is that of the first, the mass that of all.
-    problem : str
-        Why it cannot be read, "" where it can.
-    """
+    """The collision geometry of a link, in the link's frame."""
 
     name: str
-    points: Floats
-    triangles: Ints
+    points: Floats  # (n, 3)
+    triangles: Ints  # (m, 3)
+    # The first byte of each element that it comes from, and the one behind its last
     spans: tuple[tuple[int, int], ...]
+    # The shapes that it consists of, such as "sphere", in the order of the alphabet
     kinds: tuple[str, ...] = ()
+    # The attributes of elements in their place: the name is that of the first, the mass that of all
     kept: tuple[tuple[str, str], ...] = ()
-    problem: str = ""
+    problem: str = ""  # Why it cannot be read, "" where it can
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,20 +25,11 @@ _AROUND = 4.0  # doubts within this number of spacings belong together; chosen: 
 
 @dataclass(frozen=True, eq=False)
 class Topology:
-    """The topology that samples show.
+    """The topology that samples show."""
 
-    Parameters
-    ----------
-    betti : tuple of int
-        Pieces, loops and cavities of the solid.
-    places : (k, 3) float64
-        Places of doubt, if the numbers differ from those of the faces.
-    gaps : (k,) float64
-    """
-
-    betti: tuple[int, int, int]
-    places: Floats
-    gaps: Floats
+    betti: tuple[int, int, int]  # Pieces, loops and cavities of the solid
+    places: Floats  # (k, 3) Places of doubt, if the numbers differ from those of the faces
+    gaps: Floats  # (k,)
 
 
 def no_doubts() -> tuple[Floats, Floats]:

@@ -30,36 +30,22 @@ _THIN = 5.0  # walls of fewer standard deviations of the noise become one; chose
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """The figures of points without faces, measured, and what was done to them.
+    """The figures of points without faces, measured, and what was done to them."""
 
-    Parameters
-    ----------
-    given, kept : int
-        The numbers of points before and after.
-    spacing : float
-        The distance of neighbours, as if the points were evenly spread.
-    noise : float
-        The standard deviation of a point from the surface, in spacings; 0.0 where none is seen.
-    kurtosis : float
-        How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers.
-    mates : float
-        How many pairs of close points have the same height, in units of what errors have.
-    duplicates, outliers : int
-    border : float
-        The share of the points at which the surface ends.
-    moved : (kept,) float64 or None
-        How far each point was moved; None where nothing was moved.
-    """
-
+    # The numbers of points before and after
     given: int
     kept: int
-    spacing: float
+    spacing: float  # The distance of neighbours, as if the points were evenly spread
+    # The standard deviation of a point from the surface, in spacings; 0.0 where none is seen
     noise: float
+    # How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers
     kurtosis: float
+    # How many pairs of close points have the same height, in units of what errors have
     mates: float
     duplicates: int
     outliers: int
-    border: float
+    border: float  # The share of the points at which the surface ends
+    # (kept,) How far each point was moved; None where nothing was moved
     moved: Floats | None = None
 
     @property

@@ -43,39 +43,17 @@ from .warnings import fill_warnings, skeleton_warnings
 
 @dataclass(frozen=True, eq=False)
 class Skeletonization(OfChosenSamples):
-    """A skeletonization holds a skeleton and how it was computed.
-
-    Parameters
-    ----------
-    shape : Shape
-    skeleton : Skeleton
-        It has as few points as the settings allow.
-    curve : Skeleton
-        The same branches with all points.
-    parts : Parts
-        They assign the surface to the branches.
-    loops : Loops
-        They count the small loops that were cut and filled.
-    mirrored : bool
-        Both halves were replaced by their mean.
-    outside : int
-        This many edges of the skeleton leave the solid.
-    chosen : ChosenSamples
-        The samples that were analysed, the reason for them, and their density.
-    warnings : tuple of str
-        Each assumption and each suspicion is one sentence.
-    seconds : float
-    """
+    """A skeletonization holds a skeleton and how it was computed."""
 
     shape: Shape
-    skeleton: Skeleton
-    curve: Skeleton
-    parts: Parts
-    loops: Loops
-    mirrored: bool
-    outside: int
-    chosen: ChosenSamples
-    warnings: tuple[str, ...]
+    skeleton: Skeleton  # It has as few points as the settings allow
+    curve: Skeleton  # The same branches with all points
+    parts: Parts  # They assign the surface to the branches
+    loops: Loops  # They count the small loops that were cut and filled
+    mirrored: bool  # Both halves were replaced by their mean
+    outside: int  # This many edges of the skeleton leave the solid
+    chosen: ChosenSamples  # The samples that were analysed, the reason for them, and their density
+    warnings: tuple[str, ...]  # Each assumption and each suspicion is one sentence
     seconds: float
 
 

@@ -24,21 +24,12 @@ _LOOKED_AT = 64  # faces of a patch, at most
 
 @dataclass(frozen=True, eq=False)
 class Filled:
-    """A filled shape.
+    """A filled shape."""
 
-    Parameters
-    ----------
-    shape : Shape
-        The faces outside, with a lid on each opening.
-    inner : (k, 3) int32
-        The faces inside, rows of the points that the shape had; none where it is not hollow.
-    share : float
-        Their share of the area.
-    """
-
-    shape: Shape
+    shape: Shape  # The faces outside, with a lid on each opening
+    # (k, 3) The faces inside, rows of the points that the shape had; none where it is not hollow
     inner: Ints
-    share: float
+    share: float  # Their share of the area
 
 
 def filled(shape: Shape) -> Filled:

@@ -33,17 +33,11 @@ Distances = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, eq=False)
 class OffsetPlaces:
-    """Moves of the vertices of a sheet to one of its walls.
+    """Moves of the vertices of a sheet to one of its walls."""
 
-    Parameters
-    ----------
-    moves : (v, 3) float64
-        No two of these ways cross, but the ends of those that are tight may touch each other.
-    tight : (v,) bool
-        The vertices that would not have room at the end of their straight way, and those beside them.
-    """
-
+    # (v, 3) No two of these ways cross, but the ends of those that are tight may touch each other
     moves: Floats
+    # (v,) The vertices that would not have room at the end of their straight way, and those beside them
     tight: Flags
 
 

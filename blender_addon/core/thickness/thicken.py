@@ -46,25 +46,13 @@ _FARTHEST = 3.0  # times the largest gain: no vertex moves farther; chosen: unse
 
 @dataclass(frozen=True, eq=False)
 class Thickened:
-    """A shape with thicker walls.
+    """A shape with thicker walls."""
 
-    Parameters
-    ----------
-    moves : (v, 3) float64
-        How far each vertex of `before.shape` moves.
-    before, after : Measurement
-    left : ThinParts
-        What is thinner than the limit afterwards.
-    gap : float
-        The narrowest gap that kept walls from gaining all that they lack; infinite where there is none.
-    warnings : tuple of str
-    seconds : float
-    """
-
-    moves: Floats
+    moves: Floats  # (v, 3) How far each vertex of `before.shape` moves
     before: Measurement
     after: Measurement
-    left: ThinParts
+    left: ThinParts  # The parts that are thinner than the limit afterwards
+    # The narrowest gap that kept walls from gaining all that they lack; infinite where there is none
     gap: float
     warnings: tuple[str, ...]
     seconds: float
