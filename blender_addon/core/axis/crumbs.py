@@ -27,11 +27,6 @@ def crumb_sizes(level: Any, samples: Analysed) -> NDArray[np.float32]:
 
     The size of a piece is its largest radius and half the diagonal of the box round its vertices. Nothing is a crumb
     where the closed faces have as many pieces as the level.
-
-    Parameters
-    ----------
-    level : _medial.Level
-    samples : Analysed
     """
     found = np.full(len(level.vertices), np.inf, np.float32)
     if samples.by_faces is not None and samples.by_faces[0] == level.betti[0]:

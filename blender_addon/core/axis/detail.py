@@ -31,15 +31,8 @@ def with_detail(
 ) -> MedialAxis:
     """Return a curve without some of its loops and branches, which knows how many could go.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-        The level `level` in the form CURVE; facets of closed sheets, and what they hold, stay.
-    level : _medial.Level
-    hierarchy : _medial.Hierarchy
-    samples : Analysed
-    detail : float
-        From 0, what a skeleton has, to 1, everything.
+    The axis is the `_medial.Level` in the form CURVE; facets of closed sheets, and what they hold, stay. Detail goes
+    from 0, what a skeleton has, to 1, everything.
     """
     assert axis.level is not None
     if not len(level.vertices):

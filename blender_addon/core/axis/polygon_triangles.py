@@ -65,17 +65,7 @@ def triangulate_facets(vertices: Floats, face_offsets: Ints, face_vertices: Ints
 
 
 def _cut_ears(points: Floats, corners: Ints) -> Ints:
-    """Triangulate polygons.
-
-    Parameters
-    ----------
-    points : (m, k, 3) float64
-    corners : (m, k) int32
-
-    Returns
-    -------
-    triangles : (m, k - 2, 3) int32
-    """
+    """Return (m, k - 2, 3) triangles of polygons with (m, k, 3) points and (m, k) corners."""
     x, y = _flattened(points)
     rows = np.arange(len(corners))
     ears = []

@@ -84,14 +84,10 @@ def shown_areas(hierarchy: Any) -> Floats:
 def ranges_of(hierarchy: Any, area: Floats) -> dict[str, SliderRange]:
     """Return the ranges of the four sliders, by the names of the settings; what takes nothing away has none.
 
-    Sheets and their facets count by their area. A branch of wires counts by its length squared, for there are many
-    more bristles than limbs; and on the level without sheets, so that no slider changes the range of another one.
+    Sheets and their facets count by their area. A branch of wires counts by its length squared, for there are many more
+    bristles than limbs; and on the level without sheets, so that no slider changes the range of another one.
 
-    Parameters
-    ----------
-    hierarchy : _medial.Hierarchy
-    area : (f,) float64
-        As of `shown_areas`.
+    The areas are those of `shown_areas`.
     """
     vertices, limb = hierarchy.vertices, hierarchy.edge_limb
     alone = np.flatnonzero((limb > 0.0) & np.isfinite(limb))
@@ -121,13 +117,8 @@ def length_in_gap(values: Floats, weights: Floats, is_meant: Flags) -> float | N
     At a clear gap no value lies within a factor of three. What is below weighs enough to be seen and no more than half,
     and nothing of it is meant.
 
-    Parameters
-    ----------
-    values : (n,) float64
-        Values that are 0 or infinite do not count.
-    weights : (n,) float64
-    is_meant : (n,) bool
-        Whether a value is no noise, however small it is, as of sheets that lead into sharp edges of the faces.
+    Values that are 0 or infinite do not count. Those that are meant are no noise, however small they are, as of sheets
+    that lead into sharp edges of the faces. All arrays are (n,).
     """
     goes = (values > 0.0) & np.isfinite(values) & (weights > 0.0)
     found, which = np.unique(values[goes], return_inverse=True)

@@ -24,15 +24,8 @@ def solid_warnings(
 ) -> Iterator[str]:
     """Warn about the samples, about what was taken for inside, and where the faces have another topology.
 
-    Parameters
-    ----------
-    shape : Shape
-    side : Side
-    sides : SidesFrom
-        The source that decided between inside and outside.
-    chosen : ChosenSamples
-    betti : tuple of int or None
-        Pieces, loops and cavities of the solid that the samples show; None where nothing of that kind was computed.
+    The sides are the source that decided between inside and outside. The Betti numbers are pieces, loops and cavities
+    of the solid that the samples show; None where nothing of that kind was computed.
     """
     yield from sampling_warnings(shape, chosen)
     walls = chosen.samples.walls

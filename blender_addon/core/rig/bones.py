@@ -82,14 +82,8 @@ def bones_of(
 ) -> tuple[Bones, list[Body]]:
     """Return the bones of a skeleton, and its connected parts, the largest first.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Points without a branch get no bone.
-    per_limb : int
-        The number of bones along each limb, where there is room for them; 0 for as many as it needs.
-    flats : (b, 3) float64, optional
-        The normal of the sheet in each branch, or 0.
+    Points without a branch get no bone. `per_limb` bones are along each limb, where there is room for them; 0 for as
+    many as it needs. The flats are (b, 3): the normal of the sheet in each branch, or 0.
     """
     maker = _Maker(per_limb, np.zeros((skeleton.count, 3)) if flats is None else flats)
     bodies = [maker.add(tree) for tree in trees_of(skeleton)]

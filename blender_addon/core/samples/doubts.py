@@ -83,13 +83,7 @@ def words_of_place(place: Iterable[float]) -> str:
 def worst_doubt(shape: Shape, samples: Analysed, places: Floats) -> WorstDoubt | None:
     """Return the doubt with the most others within some spacings, the first of equal ones; None if there is none.
 
-    Parameters
-    ----------
-    shape : Shape
-    samples : Analysed
-        Samples of faces.
-    places : (k, 3) float64
-        As `_medial.MedialAnalysis.doubts` returns them.
+    The samples are those of faces, the (k, 3) places as `_medial.MedialAnalysis.doubts` returns them.
     """
     if not len(places):
         return None

@@ -174,14 +174,7 @@ def _best_of(passes: Sequence[Pass]) -> tuple[Pass, int]:
 
 
 def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
-    """Return the amount of the next pass with pairs; None where none is needed, or none would help.
-
-    Parameters
-    ----------
-    plan : Plan
-    compared : sequence of Pass
-        As `trials` returns them.
-    """
+    """Return the amount of the next pass with pairs, given `trials`; None where none is needed or would help."""
     start, *tried = compared
     if not tried:
         assert start.topology is not None

@@ -42,13 +42,8 @@ def smooth_faces(
 ) -> tuple[Shape, str]:
     """Return a shape whose vertices lie on smooth surfaces, and a sentence; the same shape and "" where no noise is.
 
-    Parameters
-    ----------
-    shape : Shape
-        One without faces, and the samples of curves and texts, are returned as they are.
-    settings : Settings
-        Only `prepare` and `sides` matter; a wrap has its own faces.
-    progress : _medial.Progress, optional
+    A shape without faces, and the samples of curves and texts, are returned as they are, and so is one whose settings
+    want a wrap, which has its own faces.
     """
     if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
         return shape, ""

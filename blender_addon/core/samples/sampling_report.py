@@ -51,15 +51,7 @@ def report_sampling(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> SamplingReport:
-    """Sample an object as `compute_axis` does, and estimate the density of the samples.
-
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-    progress : Progress, optional
-    limit : MemoryLimit
-    """
+    """Sample an object as `compute_axis` does, and estimate the density of the samples."""
     settings, given = settings.with_side(), shape
     shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
     begun = begin(shape, settings, progress, limit)

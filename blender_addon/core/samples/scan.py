@@ -71,12 +71,6 @@ def prepared(
     """Return a shape whose points lie on smooth surfaces, and the figures; the same shape where nothing is to be done.
 
     Faces say more than this measure, so a shape that has any is not measured.
-
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-    progress : Progress, optional
     """
     if len(shape.triangles) or len(shape.points) == 0:
         return shape, None
@@ -121,15 +115,7 @@ def _wanted(wanted: Prepare, scan: Scan) -> tuple[bool, bool]:
 
 
 def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
-    """Say what was found and done, a sentence each: noise, layers, outliers, openings.
-
-    Parameters
-    ----------
-    scan : Scan or None
-        None yields nothing.
-    sides : SidesFrom
-        The source that decided between inside and outside.
-    """
+    """Say what was found and done, a sentence each: noise, layers, outliers, openings; nothing without a scan."""
     if scan is None:
         return
     yield from _noise(scan)

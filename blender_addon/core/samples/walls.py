@@ -108,11 +108,7 @@ class Walls(Places):
     def are_reached_by(self, budget: int, area: float) -> bool:
         """Return whether a budget of samples, all of them spent on missed walls, would show most of these.
 
-        Parameters
-        ----------
-        budget : int
-        area : float
-            The area of all faces.
+        The area is that of all faces.
         """
         spacing = math.sqrt(2.0 / math.sqrt(3.0) * area * self.missed / budget)
         needed = self.distance / _HOPELESS
@@ -142,14 +138,7 @@ def middles_of_faces(shape: Shape) -> Places:
 
 
 def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
-    """Measure the distance to the opposite wall.
-
-    Parameters
-    ----------
-    shape : Shape
-    places : Places
-    progress : _medial.Progress
-    """
+    """Measure the distance to the opposite wall."""
     with native.own_errors() as module:
         distance = module.wall_distances(
             places.points,

@@ -50,14 +50,8 @@ def solid_faces(
 ) -> SolidFaces | None:
     """Return the faces of a shape if they decide what is inside, and None otherwise.
 
-    Parameters
-    ----------
-    shape : Shape
-    source : SidesFrom
-    face : (n,) int32, optional
-        The triangle on which each sample lies; the default is a triangle at each vertex.
-    flat : float
-        As in `SolidFaces`.
+    The (n,) faces are the triangles on which samples lie, by default a triangle at each vertex; `flat` is as in
+    `SolidFaces`.
     """
     if source is not SidesFrom.SURFACE or not len(shape.triangles) or not shape.volume > 0:
         return None

@@ -104,14 +104,8 @@ def branches_of(
 ) -> Branches:
     """Measure the branches of a skeleton.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        It names the ends of branches.
-    curve : Skeleton, optional
-        The same branches with more points, which are measured.
-    faces : Faces, optional
-        Without them cross-sections are unknown.
+    The skeleton names the ends of branches; a curve has the same branches with more points, which are measured. Without
+    faces cross-sections are unknown.
     """
     curve = curve or skeleton
     degree = skeleton.degree

@@ -154,11 +154,8 @@ def kept_points(points: Floats, tolerance: Floats) -> Longs:
 
     They include its ends, and no other point is farther than its tolerance from the chain of the kept points.
 
-    Parameters
-    ----------
-    points : (n, k) float64
-        The dimension k is arbitrary. The first and last points of a closed chain are equal.
-    tolerance : (n,) float64
+    The dimension of the (n, k) points is arbitrary, and each has a tolerance, (n,). The first and last points of a
+    closed chain are equal.
     """
     last = len(points) - 1
     kept, left = {0, last}, [(0, last)]

@@ -19,19 +19,7 @@ SYMMETRIC = 0.02  # a mirror image may be off by this share of the size; chosen:
 
 
 def make_symmetric(net: Net, plane: float) -> bool:
-    """Average both halves of a net.
-
-    Parameters
-    ----------
-    net : Net
-    plane : float
-        The mirror plane has this X.
-
-    Returns
-    -------
-    done : bool
-        False where the net is not symmetric.
-    """
+    """Average both halves of a net on the two sides of an X; return False where it is not symmetric."""
     rows = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
     points = net.points[rows]
     allowed = SYMMETRIC * length_of(np.ptp(points, axis=0))

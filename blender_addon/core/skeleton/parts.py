@@ -35,11 +35,7 @@ class Parts:
 def places(net: Net, names: list[int]) -> Places:
     """Return the place of each point of a net; a fork belongs to the thickest of its branches.
 
-    Parameters
-    ----------
-    net : Net
-    names : list of int
-        The branches in order: the first is branch 0.
+    The names of branches are in order: the first is branch 0.
     """
     branch, along = np.full(len(net.points), -1, np.int32), np.zeros(len(net.points))
     thickness = {name: float(net.radius[net.branches[name]].mean()) for name in names}

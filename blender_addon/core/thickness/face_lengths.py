@@ -60,12 +60,7 @@ class _Balls:
 def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> bool:
     """Whether the faces alone determine the thickness: they are closed, and all of them bound the solid.
 
-    Parameters
-    ----------
-    shape : Shape
-        With faces that look outward.
-    settings : Settings
-    wanted : ThicknessSettings
+    The faces look outward.
     """
     plain = wanted.between is Between.WALL and wanted.noise is Noise.CLEAN
     by_faces = settings.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)

@@ -18,21 +18,8 @@ from ..small_matrices import times
 def face_pieces(shape: Shape, some: NDArray[np.intp], places: Walls) -> tuple[Floats, Ints, Ints]:
     """Cut some faces into congruent pieces, each about as large as an equilateral triangle between samples.
 
-    Parameters
-    ----------
-    shape : Shape
-    some : (k,) int
-        Distinct faces, each with a place.
-    places : Walls
-        The spacing of the samples on the faces.
-
-    Returns
-    -------
-    points : (n, 3) float64
-    triangles : (p, 3) int32
-        Rows of the points; they turn as their faces do.
-    faces : (p,) int32
-        The face of each piece.
+    The (k,) faces are distinct, and each has a place, where the spacing of the samples is known. Returns (n, 3) points,
+    (p, 3) triangles that turn as their faces do, and (p,) the face of each.
     """
     cuts = _cuts(shape, some, places)
     points, triangles, of_pieces, count = [], [], [], 0
