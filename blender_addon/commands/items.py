@@ -15,9 +15,12 @@ from ..core.batch.batch import Item
 from ..core.batch.frames import at_frame, output_path
 from ..core.batch.option_words import sampling_from
 from ..core.batch.outputs import Files
-from ..core.batch.parts import items_of_parts
 from ..core.errors import InvalidInputError
 from ..core.files.read import READERS
+from ..core.samples.mesh_parts import PartShape, split
+from ..core.settings import Settings
+from ..core.shape.own_frame import in_own_frame
+from ..core.shape.shape import Shape
 
 
 def inside_blender() -> bool:
@@ -135,3 +138,24 @@ def _item(
 
 def _raise(error: Exception) -> Any:
     raise error
+
+
+def items_of_parts(item: Item, settings: Settings) -> list[Item]:
+    """Read an item and return an item for each connected part of its mesh that has thickness.
+
+    The first one has the warnings of the whole.
+    """
+    given, warnings = item.read()
+    shape, _ = in_own_frame(given)
+    found = split(shape, settings)
+
+    def item_of(part: PartShape, said: tuple[str, ...]) -> Item:
+        output = item.output.with_stem(f"{item.output.stem}_{found.words(part.number)}")
+
+        def read() -> tuple[Shape, tuple[str, ...]]:
+            return part.shape, said
+
+        return replace(item, output=output, read=read, part=part.number)
+
+    first, *others = found.parts
+    return [item_of(first, (*warnings, *found.warnings)), *(item_of(p, ()) for p in others)]

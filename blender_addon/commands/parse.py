@@ -11,9 +11,9 @@ from pathlib import Path
 from ..core.batch.frames import has_number, output_path, parse_frames
 from ..core.batch.option_words import settings_from
 from ..core.errors import MedialAxisError
-from ..core.files.extensions import extension_of
 from ..core.files.names import is_folder
 from ..core.files.read import READERS
+from ..core.files.writing import extension_of
 from ..core.machine.memory_limit import MemoryLimit
 from ..core.products.product import PRODUCTS, product
 from ..core.settings import Division

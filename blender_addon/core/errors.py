@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The errors. Each message is one sentence: what was expected, what was found, and what to do.
+"""The errors, and warnings as severe. Each message is one sentence: what was expected, what was found, and what to do.
 
 Every computation may raise those of this file, so a docstring names an error only where it says when it comes.
 """
@@ -52,3 +52,9 @@ class ExportError(MedialAxisError, OSError):
 
 class ReadError(MedialAxisError, OSError):
     """A file of points could not be read; nothing was made."""
+
+
+class Severe(str):
+    """A warning that the result is probably wrong. A plain `str` only reports an assumption."""
+
+    __slots__ = ()

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The angle of a direction without the C library and NumPy, whose last bits differ from machine to machine."""
+"""Angles and cosines without the C library and NumPy, whose last bits differ from machine to machine."""
 
 from __future__ import annotations
 
 import math
+from typing import TypeVar
 
 import numpy as np
 
 from .arrays import Floats
 
 _HALVINGS = 3  # then the tangent of an angle is below 0.1
-_TERMS = 9  # of Gregory's series there, whose next one is below 1e-20
+_GREGORY = 9  # of Gregory's series there, whose next one is below 1e-20
+Angles = TypeVar("Angles", float, Floats)
+_TAYLOR = 14  # of Taylor's series at half a turn, whose next one is below 3e-16
 
 
 def angle_of(x: Floats, y: Floats) -> Floats:
@@ -27,9 +30,19 @@ def angle_of(x: Floats, y: Floats) -> Floats:
         tangent = tangent / (1.0 + np.sqrt(1.0 + tangent * tangent))
     square = tangent * tangent
     series = np.zeros_like(tangent)
-    for k in range(_TERMS, -1, -1):
+    for k in range(_GREGORY, -1, -1):
         series = 1.0 / (2 * k + 1) - square * series
     angle = 2.0**_HALVINGS * tangent * series
     angle = np.where(np.abs(y) > np.abs(x), math.pi / 2 - angle, angle)
     angle = np.where(x < 0.0, math.pi - angle, angle)
     return np.where(y < 0.0, -angle, angle)
+
+
+def cosine(angle: Angles) -> Angles:
+    """Return the cosine of radians; the error is below 1e-14 up to 20 in absolute value, and grows with the angle."""
+    x = angle - 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
+    square = x * x
+    result = 1.0 - square / (2 * _TAYLOR * (2 * _TAYLOR - 1))
+    for k in range(_TAYLOR - 1, 0, -1):
+        result = 1.0 - square * result / (2 * k * (2 * k - 1))
+    return result

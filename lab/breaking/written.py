@@ -16,8 +16,8 @@ from xml.etree import ElementTree
 import numpy as np
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.axis.facet_triangles import triangulate_facets
 from medial_axis.core.axis.medial_axis import LevelValues, MedialAxis
+from medial_axis.core.axis.polygon_triangles import triangulate_facets
 from medial_axis.core.cover.ball_cover import Balls
 from medial_axis.core.cover.write_balls import export_balls
 from medial_axis.core.errors import ExportError, MedialAxisError

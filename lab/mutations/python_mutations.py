@@ -213,7 +213,7 @@ MUTATIONS = (
     ),
     # ---- skeleton
     _bug(
-        "skeleton/simplify.py",
+        "skeleton/chords.py",
         "/ tolerance[inner]",
         "/ tolerance[first]",
         "one tolerance decides about a whole chain",
@@ -268,7 +268,7 @@ MUTATIONS = (
         "test_readers.py",
     ),
     _bug(
-        "files/whole_file.py",
+        "files/writing.py",
         "            temporary.unlink(missing_ok=True)\n",
         "",
         "a write that failed leaves its temporary file",

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute, extract_axis
-from medial_axis.core.axis.gap import length_in_gap
+from medial_axis.core.axis.slider_range import length_in_gap
 from medial_axis.core.settings import Prepare, SamplingMode, Settings
 from support.meshes import box, icosphere
 

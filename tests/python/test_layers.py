@@ -41,7 +41,7 @@ MAY_IMPORT = {
     "core/rig": {*_ALL, "core/shape", "core/curves", "core/skeleton"},
 }
 MAY_IMPORT |= {
-    "core/batch": {*_ALL, "core/shape", "core/samples", "core/files", ""},
+    "core/batch": {*_ALL, "core/shape", "core/files", ""},
     "core/products": {*MAY_IMPORT, "core/batch"} - {"core/samples", "core/curves", "core/rig"},
 }
 CORE = set(MAY_IMPORT)

@@ -5,8 +5,8 @@ import itertools
 
 import numpy as np
 import pytest
-from medial_axis.core.axis.facet_triangles import triangulate_facets
 from medial_axis.core.axis.medial_axis import MedialAxis
+from medial_axis.core.axis.polygon_triangles import triangulate_facets
 from medial_axis.core.errors import Cancelled, InvalidInputError, ReadError
 from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis

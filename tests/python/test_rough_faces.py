@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.files.read_shape import read_shape
-from medial_axis.core.samples.rough_faces import smooth_faces
+from medial_axis.core.samples.rough_faces import are_cubes, smooth_faces
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.settings import Form, Mesh, Prepare, SamplingMode, Settings, SidesFrom
-from medial_axis.core.shape.cube_faces import are_cubes
 from medial_axis.core.shape.shape import Shape
 from support.data import DATA
 from support.inputs import rotation

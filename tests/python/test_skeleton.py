@@ -20,15 +20,13 @@ from medial_axis.core.settings import KeptLoops, SamplingMode, Settings, Skeleto
 from medial_axis.core.shape.nearness import nearest
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.shape.triangles import edges_of
-from medial_axis.core.skeleton.centre import centre_of_mass
-from medial_axis.core.skeleton.chords import keep_inside, kept_inside
+from medial_axis.core.skeleton.chords import keep_inside, kept_inside, kept_points
 from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.load_skeleton import load_skeleton
 from medial_axis.core.skeleton.middle import lead_through_middle
 from medial_axis.core.skeleton.parts import Places
-from medial_axis.core.skeleton.simplify import kept_points
-from medial_axis.core.skeleton.skeleton import Skeleton
+from medial_axis.core.skeleton.skeleton import Skeleton, centre_of_mass
 from medial_axis.core.skeleton.warnings import skeleton_warnings
 from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from scipy.sparse import coo_array

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.portable_cosine import cosine
+from medial_axis.core.portable_angle import cosine
 from medial_axis.core.small_matrices import (
     determinant,
     dot,

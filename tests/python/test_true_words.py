@@ -5,9 +5,8 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.verdict import Light, verdict
-from medial_axis.core.errors import DegenerateInputError
+from medial_axis.core.errors import DegenerateInputError, Severe
 from medial_axis.core.settings import SamplingMode, Settings, ThicknessSettings
-from medial_axis.core.severe import Severe
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
 from support.meshes import join, torus

@@ -10,8 +10,8 @@ from medial_axis.core.axis import topology
 from medial_axis.core.axis import verdict as verdicts
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.verdict import Light, in_short, plainly, verdict
+from medial_axis.core.errors import Severe
 from medial_axis.core.settings import SamplingMode, Settings
-from medial_axis.core.severe import Severe
 from medial_axis.core.shape.shape import Shape
 from support.meshes import icosphere
 

@@ -47,14 +47,10 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
             "exact ball; choose Form Clean to see them"
         )
-    if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
+    tell = {SidesFrom.TIGHT_COCONE: "Tight Cocone closed", SidesFrom.POLES: "the poles tell"}
+    if settings.sides in tell and settings.side is Side.INNER:
         return (
-            "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
-            "may lie beyond the opening: choose side Both, or lower theta or rho"
-        )
-    if settings.sides is SidesFrom.POLES and settings.side is Side.INNER:
-        return (
-            "no facet lies inside the surface that the poles tell; the axis of an open scan "
+            f"no facet lies inside the surface that {tell[settings.sides]}; the axis of an open scan "
             "may lie beyond the opening: choose side Both, or lower theta or rho"
         )
     spacing = chosen.samples.spacing

@@ -21,12 +21,7 @@ from .medial_axis import MedialAxis
 def within_box(axis: MedialAxis, low: Floats, high: Floats, times: float) -> MedialAxis:
     """Keep what lies in the box from `low` to `high`, enlarged about its middle.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-    low, high : (3,) float64
-    times : float
-        The factor by which the box is enlarged; 0 keeps everything.
+    The (3,) corners move apart by the factor `times`; 0 keeps everything.
     """
     if times <= 0.0 or not axis.facets:
         return axis

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import Floats
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 
 # Positions and linear RGB; colours in between are interpolated, as in a colour ramp of Blender.
 SCALE = (

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..arrays import Flags, Floats, Ints, Longs
 from ..samples.analysed import Analysed
 from ..shape.nearness import nearest
-from .cut import lowest_of_piece
+from ..united import united
 from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
 
@@ -27,11 +27,6 @@ def crumb_sizes(level: Any, samples: Analysed) -> NDArray[np.float32]:
 
     The size of a piece is its largest radius and half the diagonal of the box round its vertices. Nothing is a crumb
     where the closed faces have as many pieces as the level.
-
-    Parameters
-    ----------
-    level : _medial.Level
-    samples : Analysed
     """
     found = np.full(len(level.vertices), np.inf, np.float32)
     if samples.by_faces is not None and samples.by_faces[0] == level.betti[0]:
@@ -73,7 +68,7 @@ def without_crumbs(axis: MedialAxis, smallest: float) -> MedialAxis:
 def _piece_of(wires: Ints, small: Flags) -> Longs:
     """Return the lowest vertex of the piece of each vertex, (v,); -1 where a vertex of the piece is not small."""
     both = wires[small[wires].all(axis=1)]
-    piece = lowest_of_piece(len(small), np.arange(0, 2 * len(both), 2), both.ravel())
+    piece = united(len(small), both)
     mixed = wires[small[wires].any(axis=1) & ~small[wires].all(axis=1)].ravel()
     large = np.zeros(len(small), np.bool_)
     large[piece[mixed]] = True

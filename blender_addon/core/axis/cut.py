@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ..arrays import Flags, Longs
 from ..small_matrices import dot
-from .medial_axis import MedialAxis
+from ..united import united
+from .medial_axis import OUTER, MedialAxis
 
-_OUTER = 2  # value of `MedialAxis.side`
 _PER_FACET = ("theta", "rho", "side", "generators")
 
 
@@ -23,9 +23,9 @@ def pieces(axis: MedialAxis) -> Longs:
     """Return the number of the connected piece of each facet, (f,); piece 0 has the most facets."""
     if not axis.facets:
         return np.zeros(0, np.int64)
-    starts = axis.face_offsets[:-1]
-    label = lowest_of_piece(len(axis.vertices), starts, axis.face_vertices)
-    label = label[axis.face_vertices[starts]]
+    first = axis.face_vertices[axis.face_offsets[:-1]]
+    pairs = np.column_stack((np.repeat(first, np.diff(axis.face_offsets)), axis.face_vertices))
+    label = united(len(axis.vertices), pairs)[first]
     _, piece, counts = np.unique(label, return_inverse=True, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     rank = np.empty_like(order)
@@ -48,7 +48,7 @@ def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
     The diagonal of the bounding box of a piece counts, and the mean of the balls at its corners. Sheets of the outside
     reach many diameters far; a piece that does not is a remainder of one that the thresholds have not kept.
     """
-    if diameters <= 0.0 or not (axis.side == _OUTER).any():
+    if diameters <= 0.0 or not (axis.side == OUTER).any():
         return axis
     piece = pieces(axis)
     of_corner = np.repeat(piece, np.diff(axis.face_offsets))
@@ -61,7 +61,7 @@ def without_shards(axis: MedialAxis, diameters: float) -> MedialAxis:
     with np.errstate(divide="ignore", invalid="ignore"):
         box = (high - low) / mean[:, None]
     across = np.sqrt(dot(box, box))
-    outer = np.bincount(piece, axis.side != _OUTER, count) == 0
+    outer = np.bincount(piece, axis.side != OUTER, count) == 0
     small = across < 2.0 * diameters  # what is no number stays
     return _with_pieces(axis, piece, ~(outer & small))
 
@@ -88,45 +88,3 @@ def with_facets(axis: MedialAxis, keep: Flags) -> MedialAxis:
         face_vertices=row[corners].astype(np.int32),
         **{name: getattr(axis, name)[keep] for name in _PER_FACET},
     )
-
-
-def lowest_of_piece(
-    vertices: int, starts: NDArray[np.integer], corners: NDArray[np.integer]
-) -> Longs:
-    """Return the lowest vertex of the piece of each vertex, (v,); facets or edges join their corners.
-
-    Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
-    changes. Corners are sorted by their vertices once, because NumPy's `minimum.at` takes far longer.
-
-    Parameters
-    ----------
-    vertices : int
-        Their number.
-    starts : (f,) int
-        The first corner of each facet.
-    corners : (c,) int
-    """
-    label = np.arange(vertices)
-    if not len(starts):
-        return label
-    facet_of_corner = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(corners)))
-    order = np.argsort(corners, kind="stable")
-    used, first = np.unique(corners[order], return_index=True)
-    facet_of_corner = facet_of_corner[order]
-    while True:
-        of_facet = np.minimum.reduceat(label[corners], starts)
-        lowest = np.minimum.reduceat(of_facet[facet_of_corner], first)
-        falls = np.flatnonzero(lowest < label[used])
-        if not len(falls):
-            return label
-        label = _hooked(label, used[falls], lowest[falls])
-
-
-def _hooked(label: Longs, vertex: NDArray[np.integer], lowest: Longs) -> Longs:
-    """The labels after some vertices, and the vertices that were their labels, have got lower ones."""
-    hooked = label.copy()
-    falling = np.argsort(-lowest, kind="stable")
-    hooked[label[vertex[falling]]] = lowest[falling]  # the last one, the lowest, stays
-    hooked = np.minimum(hooked, label)
-    hooked[vertex] = np.minimum(hooked[vertex], lowest)
-    return hooked[hooked]

@@ -19,7 +19,7 @@ from ..curves.removals import Removals, removals_of, take_apart
 from ..curves.rules import Loops
 from ..samples.analysed import Analysed
 from ..settings import SkeletonSettings
-from .cut import lowest_of_piece
+from ..united import united
 from .medial_axis import MedialAxis
 from .rows_of_axis import with_rows
 
@@ -31,15 +31,8 @@ def with_detail(
 ) -> MedialAxis:
     """Return a curve without some of its loops and branches, which knows how many could go.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-        The level `level` in the form CURVE; facets of closed sheets, and what they hold, stay.
-    level : _medial.Level
-    hierarchy : _medial.Hierarchy
-    samples : Analysed
-    detail : float
-        From 0, what a skeleton has, to 1, everything.
+    The axis is the `_medial.Level` in the form CURVE; facets of closed sheets, and what they hold, stay. Detail goes
+    from 0, what a skeleton has, to 1, everything.
     """
     assert axis.level is not None
     if not len(level.vertices):
@@ -102,7 +95,7 @@ def _with_edges(axis: MedialAxis, edges: Ints) -> MedialAxis:
 
 def _alone(axis: MedialAxis, keep: Flags) -> Flags:
     """Return the largest ball of each piece of wires of which nothing else is kept, and single points, (v,)."""
-    piece = lowest_of_piece(len(keep), np.arange(0, 2 * len(axis.edges), 2), axis.edges.ravel())
+    piece = united(len(keep), axis.edges)
     order = np.lexsort((np.arange(len(keep)), -axis.radius, piece))
     first = np.ones(len(order), np.bool_)
     first[1:] = piece[order][1:] != piece[order][:-1]

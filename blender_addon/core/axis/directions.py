@@ -13,12 +13,8 @@ from ..small_matrices import summed, times
 def facet_areas(vertices: Floats, offsets: Ints, corners: Ints) -> Floats:
     """Return the areas of planar facets, (f,); those of others are a little less than their triangles'.
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    offsets : (f + 1,) int32
-    corners : (c,) int32
-        The corners of facet i are `corners[offsets[i] : offsets[i + 1]]`, in order.
+    The (v, 3) vertices are those of all facets; the corners of facet i are `corners[offsets[i] : offsets[i + 1]]`, in
+    order.
     """
     return 0.5 * np.linalg.norm(_doubled_areas(vertices, offsets, corners), axis=1)
 
@@ -32,15 +28,10 @@ def sheet_normals(vertices: Floats, offsets: Ints, corners: Ints, part: Ints) ->
     """Return the unit normal of the sheet at each vertex, (v, 3), the mean over the facets of one part, by area.
 
     A vertex on a seam has that of the part with the largest area round it, of equal ones the lowest. Where facets of a
-    part look opposite ways, as where a part with one side only must turn over, it is that of the largest facet.
-    A vertex on no facet that has an area has the vector 0.
+    part look opposite ways, as where a part with one side only must turn over, it is that of the largest facet. A
+    vertex on no facet that has an area has the vector 0.
 
-    Parameters
-    ----------
-    vertices, offsets, corners
-        As for `facet_areas`; facets of a part turn the same way.
-    part : (f,) int32
-        The part of each facet, from 0.
+    Facets are given as for `facet_areas`, with the (f,) part of each, from 0; those of a part turn the same way.
     """
     doubled = _doubled_areas(_scaled(vertices), offsets, corners)
     area = np.linalg.norm(doubled, axis=1)
@@ -90,12 +81,8 @@ def corners_after(offsets: Ints) -> Longs:
 def curve_tangents(vertices: Floats, wires: Ints) -> Floats:
     """Return the unit direction of the curve at each vertex, (v, 3), the same way along a chain of a relaxed level.
 
-    At a fork it is that of the two wires that go straightest through it. A vertex without a wire has the vector 0.
-
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    wires : (w, 2) int32
+    At a fork it is that of the two of the (w, 2) wires that go straightest through it. A vertex without a wire has the
+    vector 0.
     """
     along = _unit(vertices[wires[:, 1]] - vertices[wires[:, 0]])
     ends = wires.T.ravel()

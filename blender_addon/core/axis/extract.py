@@ -13,22 +13,7 @@ from ..machine.progress import Progress
 from ..samples.analysed import Analysed
 from ..settings import Form, Settings
 from .levels import extract_level
-from .medial_axis import MedialAxis
-
-# The fields of both `_medial.MedialMesh` and `MedialAxis`.
-_SAME = (
-    "vertices",
-    "radius",
-    "face_offsets",
-    "face_vertices",
-    "theta",
-    "rho",
-    "side",
-    "generators",
-    "unbounded",
-    "zero_area",
-    "edges",
-)
+from .medial_axis import AS_PUBLISHED, MedialAxis
 
 
 def extract(
@@ -74,4 +59,4 @@ def _published(analysis: Any, settings: Settings, progress: Any | None) -> Media
             limit_set=settings.limit_set,
             progress=progress,
         )
-    return MedialAxis(**{name: getattr(mesh, name) for name in _SAME})
+    return MedialAxis(**{name: getattr(mesh, name) for name in AS_PUBLISHED})

@@ -22,13 +22,10 @@ from ..samples.analysed import Analysed
 from ..settings import Form, Mesh, Settings
 from .crumbs import crumb_sizes
 from .detail import with_detail
-from .gap import gap_of
-from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
-from .slider_range import SliderRange, ranges_of, shown_areas
+from .medial_axis import IN_CORNER, INNER, ON_CREASE, LevelValues, MedialAxis
+from .slider_range import SliderRange, gap_of, ranges_of, shown_areas
 from .smooth_curve import smooth_curve
 from .structure import structure_of
-
-_INNER = 1  # value of `_medial.Side`
 
 
 def hierarchy_of(
@@ -74,7 +71,7 @@ def extract_level(
         face_vertices=level.face_vertices,
         theta=level.theta,
         rho=level.rho,
-        side=np.full(len(level.generators), _INNER, np.int32),
+        side=np.full(len(level.generators), INNER, np.int32),
         generators=level.generators,
         unbounded=0,
         zero_area=level.hidden,

@@ -16,52 +16,36 @@ from .structure import Structure
 # very dense, or because the ball of the faces was not empty or too far away; or it is where the ball touches the faces,
 # on a smooth rim, on a sharp convex edge or in a corner.
 VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE, IN_CORNER = range(6)
+INNER, OUTER = 1, 2  # values of `MedialAxis.side`
 
 
 @dataclass(frozen=True, eq=False)
 class LevelValues:
-    """The values of an axis that is a level of a hierarchy (docs/hierarchy.md).
+    """The values of an axis that is a level of a hierarchy (docs/hierarchy.md)."""
 
-    Parameters
-    ----------
-    exact : (v, 3) float64
-        The Voronoi vertices; `MedialAxis.vertices` are moved from them to where balls touch the faces, and where that
-        shows rims and curves better.
-    exact_radius : (v,) float64
-        The radius of the empty ball round each Voronoi vertex.
-    sheet, erosion : (f,) float32
-        The largest Simplify and Trim Rims at which the facet stays, in percent of the diagonal; infinite: always.
-    limb : (w,) float32
-        The largest Shortest Limb at which the edge stays, in percent of the diagonal; infinite: always.
-    betti : tuple of int
-        Pieces, loops and cavities, counted on this level.
-    place : (v,) int32
-        How each vertex was placed: VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE or IN_CORNER. Without crisp places,
-        and on curves, all are VORONOI.
-    crumb : (v,) float32 or None
-        The size of the piece of each vertex in spacings of the samples, infinite where it is no crumb (`crumbs.py`);
-        None where it is not known.
-    ranges : dict of SliderRange
-        The ranges of Simplify, Trim Rims and Shortest Limb, by the names of the settings; empty: not known.
-    gap : float or None
-        The value of Simplify in a clear gap between thin sheets and others; None where there is none (`gap.py`).
-    loops_left_out : int
-        The number of loops that the samples show, and that a curve with less Detail does not have.
-    removals : int or None
-        How many loops and branches of a curve Detail can leave out; None where the axis is no curve.
-    """
-
+    # (v, 3) The Voronoi vertices; `MedialAxis.vertices` are moved from them to where balls touch the faces, and where
+    # that shows rims and curves better
     exact: Floats
-    exact_radius: Floats
+    exact_radius: Floats  # (v,) The radius of the empty ball round each Voronoi vertex
+    # (f,) The largest Simplify and Trim Rims at which the facet stays, in percent of the diagonal; infinite: always
     sheet: NDArray[np.float32]
     erosion: NDArray[np.float32]
+    # (w,) The largest Shortest Limb at which the edge stays, in percent of the diagonal; infinite: always
     limb: NDArray[np.float32]
-    betti: tuple[int, int, int]
+    betti: tuple[int, int, int]  # Pieces, loops and cavities, counted on this level
+    # (v,) How each vertex was placed: VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE or IN_CORNER. Without crisp places,
+    # and on curves, all are VORONOI.
     place: Ints
+    # (v,) The size of the piece of each vertex in spacings of the samples, infinite where it is no crumb (`crumbs.py`);
+    # None where it is not known
     crumb: NDArray[np.float32] | None = None
+    # The ranges of Simplify, Trim Rims and Shortest Limb, by the names of the settings; empty: not known
     ranges: dict[str, SliderRange] = field(default_factory=dict)
+    # The value of Simplify in a clear gap between thin sheets and others; None where there is none (`slider_range.py`)
     gap: float | None = None
+    # The number of loops that the samples show, and that a curve with less Detail does not have
     loops_left_out: int = 0
+    # How many loops and branches of a curve Detail can leave out; None where the axis is no curve
     removals: int | None = None
 
     @property
@@ -150,3 +134,30 @@ class MedialAxis:
     def is_empty(self) -> bool:
         """Whether there is nothing at all: no facet, no edge, no vertex."""
         return len(self.vertices) == 0
+
+
+# The fields of an axis as published, which `_medial.MedialMesh` has, too.
+AS_PUBLISHED = tuple(
+    name for name in MedialAxis.__dataclass_fields__ if name not in ("level", "structure")
+)
+
+
+def without_samples(
+    vertices: Floats, radius: Floats, face_offsets: Ints, face_vertices: Ints, edges: Ints
+) -> MedialAxis:
+    """Return an inner axis whose facets have no samples: `generators` are -1, `theta` and `rho` are infinite."""
+    count = len(face_offsets) - 1
+    always = np.full(count, np.inf)
+    return MedialAxis(
+        vertices=vertices,
+        radius=radius,
+        face_offsets=face_offsets,
+        face_vertices=face_vertices,
+        theta=always,
+        rho=always,
+        side=np.full(count, INNER, np.int32),
+        generators=np.full((count, 2), -1, np.int32),
+        unbounded=0,
+        zero_area=0,
+        edges=edges,
+    )

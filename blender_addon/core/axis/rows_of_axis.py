@@ -17,15 +17,7 @@ OF_VERTICES = ("exact", "exact_radius", "place", "crumb")  # fields of LevelValu
 def with_rows(axis: MedialAxis, keep: Flags, edges: Ints, limb: NDArray[np.float32]) -> MedialAxis:
     """Return a level with some of its vertices.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-        Its `level` is not None.
-    keep : (v,) bool
-        All vertices of facets and of the edges are kept.
-    edges : (w, 2) int32
-        The wires, as rows of the vertices of `axis`.
-    limb : (w,) float32
+    All vertices of facets and of the (w, 2) edges are kept; these are rows of the vertices before.
     """
     row = (np.cumsum(keep) - 1).astype(np.int32)
     structure = axis.structure

@@ -35,26 +35,15 @@ _FOLLOWS = 2.0  # within this many radii of a fork a line follows it when it mov
 
 @dataclass(frozen=True, eq=False)
 class _Line:
-    """A wire in even steps.
+    """A wire in even steps."""
 
-    Parameters
-    ----------
-    chain : list of int
-        The vertices of the wire.
-    at : (n,) float64
-        The place of each new vertex on the chain: 2.25 is a quarter of the way from its vertex 2 to its vertex 3.
-    along : (n + 2,) float64
-        The length of the wire before its start, 0, before each new vertex, and before its end.
-    points : (n + 2, 3) float64
-        The smooth places of the start, the new vertices and the end.
-    through : (2,) tuple of bool
-        Whether the line continues beyond the start and the end, which are then at the smooth place.
-    """
-
-    chain: list[int]
+    chain: list[int]  # The vertices of the wire
+    # (n,) The place of each new vertex on the chain: 2.25 is a quarter of the way from its vertex 2 to its vertex 3
     at: Floats
+    # (n + 2,) The length of the wire before its start, 0, before each new vertex, and before its end
     along: Floats
-    points: Floats
+    points: Floats  # (n + 2, 3) The smooth places of the start, the new vertices and the end
+    # (2,) Whether the line continues beyond the start and the end, which are then at the smooth place
     through: tuple[bool, bool]
 
     @property
@@ -65,19 +54,11 @@ class _Line:
 
 @dataclass(frozen=True, eq=False)
 class _Places:
-    """Places and radii of new vertices of all lines that are drawn, and of all vertices of the axis.
-
-    Parameters
-    ----------
-    lines : list of _Line
-    new : (n, 4) float64
-        Places and radii of the new vertices, line after line.
-    old : (v, 4) float64
-        Places and radii of the vertices of the axis, of which forks may have moved.
-    """
+    """Places and radii of new vertices of all lines that are drawn, and of all vertices of the axis."""
 
     lines: list[_Line]
-    new: Floats
+    new: Floats  # (n, 4) Places and radii of the new vertices, line after line
+    # (v, 4) Places and radii of the vertices of the axis, of which forks may have moved
     old: Floats
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..errors import Severe
 from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import differs_warning, sampling_warnings
 from ..samples.sides import cocone_warnings, look_inward, pole_warnings
 from ..settings import SamplingMode, Side, SidesFrom
-from ..severe import Severe
 from ..shape.shape import Shape
 
 _OF_POINTS_ALONE = (SidesFrom.TIGHT_COCONE, SidesFrom.POLES)
@@ -24,15 +24,8 @@ def solid_warnings(
 ) -> Iterator[str]:
     """Warn about the samples, about what was taken for inside, and where the faces have another topology.
 
-    Parameters
-    ----------
-    shape : Shape
-    side : Side
-    sides : SidesFrom
-        The source that decided between inside and outside.
-    chosen : ChosenSamples
-    betti : tuple of int or None
-        Pieces, loops and cavities of the solid that the samples show; None where nothing of that kind was computed.
+    The sides are the source that decided between inside and outside. The Betti numbers are pieces, loops and cavities
+    of the solid that the samples show; None where nothing of that kind was computed.
     """
     yield from sampling_warnings(shape, chosen)
     walls = chosen.samples.walls

@@ -24,54 +24,31 @@ class Structure:
 
     The numbers follow rules that do not know the samples, so they are the same for other samples of the same shape
     where these show the same structure (docs/parts.md).
-
-    Parameters
-    ----------
-    part : (f,) int32
-        The part of each facet: a sheet.
-    turned : (f,) bool
-        Whether the facet must be turned to agree with its part.
-    facet_edges : (e, 2) int32
-        The edges of the facets, lower vertex first, in lexicographic order.
-    seam : (e,) int32
-        0 inside a sheet, 1 seam, 2 rim, 3 crease: a rim at a sharp convex edge of the solid.
-    curve : (e,) int32
-        The curve of each edge; -1 where there is none or one too short to count.
-    kind : (v,) int32
-        0 inside a sheet, 1 on a seam, 2 junction, 3 on a rim, 4 corner, 5 on no facet.
-    part_patches : (p, 2) int32
-        The patches of the surface between which the part lies, lower first; -1 where they are not known.
-    part_area, part_mean_radius, part_least_radius : (p,) float64
-    curve_kind : (c,) int32
-        As `seam`.
-    curve_length, curve_mean_radius, curve_least_radius : (c,) float64
-    curve_part_offsets, curve_parts : int32
-        The parts at curve i are `curve_parts[curve_part_offsets[i] : curve_part_offsets[i + 1]]`.
-    node_kind : (n,) int32
-        2 junction, 4 corner.
-    node_vertex : (n,) int32
-    node_curve_offsets, node_curves : int32
-        The curves at each node, likewise.
     """
 
-    part: Ints
-    turned: Flags
-    facet_edges: Ints
+    part: Ints  # (f,) The part of each facet: a sheet
+    turned: Flags  # (f,) Whether the facet must be turned to agree with its part
+    facet_edges: Ints  # (e, 2) The edges of the facets, lower vertex first, in lexicographic order
+    # (e,) 0 inside a sheet, 1 seam, 2 rim, 3 crease: a rim at a sharp convex edge of the solid
     seam: Ints
-    curve: Ints
+    curve: Ints  # (e,) The curve of each edge; -1 where there is none or one too short to count
+    # (v,) 0 inside a sheet, 1 on a seam, 2 junction, 3 on a rim, 4 corner, 5 on no facet
     kind: Ints
+    # (p, 2) The patches of the surface between which the part lies, lower first; -1 where they are not known
     part_patches: Ints
-    part_area: Floats
-    part_mean_radius: Floats
-    part_least_radius: Floats
-    curve_kind: Ints
-    curve_length: Floats
-    curve_mean_radius: Floats
-    curve_least_radius: Floats
+    part_area: Floats  # (p,)
+    part_mean_radius: Floats  # (p,)
+    part_least_radius: Floats  # (p,)
+    curve_kind: Ints  # (c,) As `seam`
+    curve_length: Floats  # (c,)
+    curve_mean_radius: Floats  # (c,)
+    curve_least_radius: Floats  # (c,)
+    # The parts at curve i are `curve_parts[curve_part_offsets[i] : curve_part_offsets[i + 1]]`
     curve_part_offsets: Ints
     curve_parts: Ints
-    node_kind: Ints
-    node_vertex: Ints
+    node_kind: Ints  # (n,) 2 junction, 4 corner
+    node_vertex: Ints  # (n,)
+    # The curves at each node, likewise
     node_curve_offsets: Ints
     node_curves: Ints
 

@@ -17,12 +17,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
     does the sentence claim that this is the solid. For an axis as published the sentence explains why the axis does not
     have the wanted form, or is empty.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-    wanted : Form
-        The form of the settings; the axis may have another one.
-    samples : Analysed
+    The wanted form is that of the settings; the axis may have another one.
     """
     if axis.level is None:
         if wanted is Form.PUBLISHED:

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from ..errors import Severe
 from ..samples.chosen import ChosenSamples
 from ..settings import SamplingMode
-from ..severe import Severe
 
 # A few words for the panel, by a part of the sentence that they stand for.
 _IN_SHORT = {

@@ -24,7 +24,7 @@ from ..errors import (
     out_of_memory,
 )
 from ..files.names import LONGEST, bytes_of
-from ..files.whole_file import write_whole
+from ..files.writing import write_whole
 from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -57,27 +57,15 @@ class Work(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Item:
-    """An item is one output of a batch.
+    """An item is one output of a batch."""
 
-    Parameters
-    ----------
-    input : str
-        The input file, for messages.
-    object : str or None
-        The name of the object in that file.
-    frame : int or None
-    output : Path
-    read : callable
-        It returns the shape, or a `RobotFile`, and warnings.
-    part : int or None
-        The number of the connected part of the shape, from 1, that this item is; None for the whole.
-    """
-
-    input: str
-    object: str | None
+    input: str  # The input file, for messages
+    object: str | None  # The name of the object in that file
     frame: int | None
     output: Path
+    # It returns the shape, or a `RobotFile`, and warnings
     read: Callable[[], tuple[Shape, tuple[str, ...]]]
+    # The number of the connected part of the shape, from 1, that this item is; None for the whole
     part: int | None = None
 
     @property
@@ -90,24 +78,14 @@ class Item:
 
 @dataclass(frozen=True, eq=False)
 class Begun:
-    """Begun is an item whose shape was read.
-
-    Parameters
-    ----------
-    item : Item
-    work : Work
-    limit : MemoryLimit
-    shape : Shape
-    warnings : tuple of str
-    kept : dict or None
-        The report of the output if that is finished, or None if it has to be computed.
-    """
+    """Begun is an item whose shape was read."""
 
     item: Item
     work: Work
     limit: MemoryLimit
     shape: Shape
     warnings: tuple[str, ...]
+    # The report of the output if that is finished, or None if it has to be computed
     kept: dict[str, Any] | None
 
     @property

@@ -38,15 +38,8 @@ def fitting_radii(
 ) -> tuple[Floats, Flags]:
     """Return radii of capsules in a solid, (n, 2), and whether each is worth more than the balls at its ends, (n,).
 
-    Parameters
-    ----------
-    ends : (n, 2, 3) float64
-        In the solid.
-    surface : (v, 3) float64, (f, 3) int32
-        The boundary of the solid.
-    tapered : bool
-        Whether the ends may differ.
-    progress : _medial.Progress, optional
+    The segments are (n, 2, 3), in the solid, whose boundary is (v, 3) points and (f, 3) triangles. Tapered ones may
+    have two radii.
     """
     found = [
         _fitting(depths, part, tapered)

@@ -30,21 +30,11 @@ _ROUND = 16  # a round of proposals follows when one of so many elements is new
 
 @dataclass(frozen=True, eq=False)
 class Witnesses:
-    """Places that tell what a choice of capsules loses.
+    """Places that tell what a choice of capsules loses."""
 
-    Parameters
-    ----------
-    places : (q, 3) float64
-        Ascending in x.
-    reach : (q,) float64
-        How near to a capsule each must be: 0 in the solid, a bound on the surface.
-    weight : (q,) float64
-        What it costs to leave it.
-    """
-
-    places: Floats
-    reach: Floats
-    weight: Floats
+    places: Floats  # (q, 3) Ascending in x
+    reach: Floats  # (q,) How near to a capsule each must be: 0 in the solid, a bound on the surface
+    weight: Floats  # (q,) What it costs to leave it
 
     @staticmethod
     def of(inside: Floats, surface: Floats, bound: float) -> Witnesses:
@@ -265,33 +255,13 @@ def segments_of(
     tapered: bool,
     progress: Progress | None = None,
 ) -> tuple[Floats, Floats]:
-    """Return few capsules that hold most of what many balls do.
+    """Return few capsules that hold most of what many balls do: (s, 2, 3) ends and (s, 2) radii; a ball has equal ends.
 
     Two elements, balls or capsules, become one capsule from an end of one to an end of the other, or one of them is
-    left out, whichever loses least, until there are so many.
-
-    Parameters
-    ----------
-    centres : (n, 3) float64
-    radii : (n,) float64
-        Balls in the solid.
-    count : int
-    surface : (v, 3) float64, (f, 3) int32
-        The boundary of the solid.
-    places : (p, 3) float64, (q, 3) float64
-        In the solid and on the surface: they tell what is lost.
-    bound : float
-        How far a place on the surface may be from the capsules. If one must be farther than twice that, the bound is
-        doubled, and all begins anew.
-    tapered : bool
-        Whether capsules may have two radii.
-    progress : Progress, optional
-
-    Returns
-    -------
-    ends : (s, 2, 3) float64
-        Those of a ball are equal places.
-    radii : (s, 2) float64
+    left out, whichever loses least, until there are `count`. (p, 3) places in the solid and (q, 3) on its surface tell
+    what is lost; the surface is (v, 3) points and (f, 3) triangles. A place on it may be as far from the capsules as
+    the bound says. If one must be farther than twice that, the bound is doubled, and all begins anew. Tapered capsules
+    may have two radii.
     """
     while True:
         witnesses = Witnesses.of(*places, bound)

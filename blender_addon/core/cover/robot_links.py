@@ -10,7 +10,8 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ..arrays import Floats
-from ..files.rows_of_text import write_rows
+from ..errors import ExportError
+from ..files.writing import write_rows
 from ..portable_angle import angle_of
 from .ball_cover import Balls
 
@@ -25,6 +26,7 @@ def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
 
 def write_collisions(balls: Balls, stream: BinaryIO) -> None:
     """Write a line for each ball, and one for the cylinder of each capsule, because URDF has no capsules."""
+    _check(balls)
     sphere = (
         '    <collision><origin xyz="%.17g %.17g %.17g" rpy="0 0 0"/>'
         '<geometry><sphere radius="%.17g"/></geometry></collision>\n'
@@ -48,12 +50,33 @@ def write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
 
 def write_geoms(balls: Balls, stream: BinaryIO) -> None:
     """Write a line for each ball that is alone, and one for each capsule."""
+    _check(balls)
     alone, (ends, radii) = balls.single, _capsules(balls)
     sphere = '      <geom type="sphere" pos="%.17g %.17g %.17g" size="%.17g"/>\n'
     write_rows(stream, sphere, balls.centres[alone], balls.radii[alone])
     numbers = " ".join(["%.17g"] * 6)
     capsule = f'      <geom type="capsule" fromto="{numbers}" size="%.17g"/>\n'
     write_rows(stream, capsule, ends.reshape(-1, 6), radii)
+
+
+def _check(balls: Balls) -> None:
+    """Refuse what parsers of such files refuse, or read as something else."""
+    if balls.is_tapered:
+        raise ExportError(
+            "Expected balls or capsules of one radius for a file of a robot, found tapered capsules; "
+            "set Shapes to Capsules"
+        )
+    ends = balls.centres[balls.edges]
+    if (ends[:, 0] == ends[:, 1]).all(axis=1).any():
+        raise ExportError(
+            "Expected two places as the ends of each capsule for a file of a robot, found one that has no length; "
+            "delete such capsules"
+        )
+    least = float(balls.radii.min())
+    if not least > 0.0:
+        raise ExportError(
+            f"Expected radii above 0 for a file of a robot, found {least:.6g}; delete such balls"
+        )
 
 
 def _capsules(balls: Balls) -> tuple[Floats, Floats]:

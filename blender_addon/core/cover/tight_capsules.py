@@ -24,18 +24,11 @@ _LATTICE = 20_000  # places on which the volume of a union is counted
 
 @dataclass(frozen=True, eq=False)
 class Capsules:
-    """Capsules round groups of places.
+    """Capsules round groups of places."""
 
-    Parameters
-    ----------
-    ends : (k, 2, 3) float64
-    radii : (k, 2) float64
-    group : (n,) int32
-        The capsule of each place, where they were made round places.
-    """
-
-    ends: Floats
-    radii: Floats
+    ends: Floats  # (k, 2, 3)
+    radii: Floats  # (k, 2)
+    # (n,) The capsule of each place, where they were made round places
     group: Ints = field(default_factory=lambda: np.empty(0, np.int32))
 
     @staticmethod

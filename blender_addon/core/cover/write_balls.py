@@ -12,12 +12,8 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from ..arrays import Floats
-from ..errors import ExportError
-from ..files.extensions import extension_of
-from ..files.json_figures import known
 from ..files.placing import is_identity, parts_of
-from ..files.rows_of_text import write_rows
-from ..files.whole_file import write_whole
+from ..files.writing import extension_of, known, write_rows, write_whole
 from ..small_matrices import times
 from .ball_cover import Balls
 from .robot_links import write_mjcf, write_urdf
@@ -39,15 +35,10 @@ def export_balls(balls: Balls, path: str | os.PathLike, transform: Floats | None
         The extension is unknown, the transform does not fit, the format has no place for such balls, or the system
         refused to write; an old file is then unchanged.
     """
-    write = ball_format(path)
+    write = BALL_FORMATS[extension_of(path, BALL_FORMATS)]
     placed = balls if transform is None else _placed(balls, transform)
     name = Path(path).stem
     return write_whole(path, lambda stream: write(placed, name, stream))
-
-
-def ball_format(path: str | os.PathLike) -> Callable[[Balls, str, BinaryIO], None]:
-    """Return the writer of the format that the extension of `path` names."""
-    return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
 
 
 def _placed(balls: Balls, transform: Floats) -> Balls:
@@ -98,40 +89,10 @@ def as_figures(balls: Balls) -> dict[str, str | float | None]:
     }
 
 
-def _write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    check_robot(balls)
-    write_urdf(balls, name, stream)
-
-
-def _write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    check_robot(balls)
-    write_mjcf(balls, name, stream)
-
-
-def check_robot(balls: Balls) -> None:
-    """Refuse what parsers of such files refuse, or read as something else."""
-    if balls.is_tapered:
-        raise ExportError(
-            "Expected balls or capsules of one radius for a file of a robot, found tapered capsules; "
-            "set Shapes to Capsules"
-        )
-    ends = balls.centres[balls.edges]
-    if (ends[:, 0] == ends[:, 1]).all(axis=1).any():
-        raise ExportError(
-            "Expected two places as the ends of each capsule for a file of a robot, found one that has no length; "
-            "delete such capsules"
-        )
-    least = float(balls.radii.min())
-    if not least > 0.0:
-        raise ExportError(
-            f"Expected radii above 0 for a file of a robot, found {least:.6g}; delete such balls"
-        )
-
-
 BALL_FORMATS: dict[str, Callable[[Balls, str, BinaryIO], None]] = {
     ".ma": _write_ma,
     ".json": _write_json,
-    ".urdf": _write_urdf,
-    ".mjcf": _write_mjcf,
-    ".xml": _write_mjcf,
+    ".urdf": write_urdf,
+    ".mjcf": write_mjcf,
+    ".xml": write_mjcf,
 }

@@ -74,22 +74,9 @@ def _reaches(balls: Balls, rows: Longs, base: Floats) -> Floats:
 
 
 def end_limbs(net: Net, owner: Longs, balls: Balls, tips: list[int] | None = None) -> Longs:
-    """Move the end of each limb to its largest ball that reaches farthest.
+    """Move the end of each limb to its largest ball that reaches farthest, and return a copy of the owners of samples.
 
-    Parameters
-    ----------
-    net : Net
-        Its tips move, and the last points of a limb are replaced by a straight way to the new tip.
-    owner : (n,) int64
-        The point that owns each sample.
-    balls : Balls
-    tips : list of int, optional
-        The tips to move; all, if it is not given.
-
-    Returns
-    -------
-    owner : (n,) int64
-        A copy of the given owners.
+    The last points of a limb are replaced by a straight way to the new tip. All tips move unless some are given.
     """
     owner = owner.copy()
     for tip in net.tips() if tips is None else tips:

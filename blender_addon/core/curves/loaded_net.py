@@ -33,13 +33,7 @@ def loaded_net(
 ) -> LoadedNet:
     """Return the net of the wires of a level.
 
-    Parameters
-    ----------
-    samples : Analysed
-    hierarchy : _medial.Hierarchy
-    level : _medial.Level
-    anchored : iterable of int
-        As of `Net`.
+    The hierarchy and its level are those of the module; anchored points are as of `Net`.
     """
     owner, balls = owners(samples, hierarchy, level)
     spacing, share = shares(samples)

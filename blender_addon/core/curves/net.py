@@ -78,18 +78,20 @@ class Net:
     def _is_tip(self, node: int) -> bool:
         return len(self.at[node]) == 1 and node not in self.anchored
 
+    def pieces(self) -> dict[int, int]:
+        """Return {node: the first node of its connected piece}."""
+        found: dict[int, int] = {}
+        for first in self.at:
+            left = [first]
+            while left:
+                if (node := left.pop()) not in found:
+                    found[node] = first
+                    left += [end for name in self.at[node] for end in self._ends(name)]
+        return found
+
     def loops(self) -> int:
         """Return the number of independent loops."""
-        seen: set[int] = set()
-        pieces = 0
-        for node in self.at:
-            pieces += node not in seen
-            left = [node]
-            while left:
-                if (here := left.pop()) not in seen:
-                    seen.add(here)
-                    left += [end for name in self.at[here] for end in self._ends(name)]
-        return len(self.branches) - len(self.at) + pieces
+        return len(self.branches) - len(self.at) + len(set(self.pieces().values()))
 
     def _ends(self, name: int) -> tuple[int, int]:
         chain = self.branches[name]
@@ -184,13 +186,7 @@ class Net:
 
     def open(self, name: int, at: int) -> None:
         """Remove the edge after a position on a branch of a loop; both halves stay, and end there."""
-        chain = self.branches[name]
-        self._take(name)
-        for half in (chain[: at + 1], chain[at + 1 :]):
-            if len(half) > 1:
-                self.add(half)
-        for node in {chain[0], chain[-1]}:
-            self._join(node)
+        self._divide(name, at + 1, at + 1)
 
     def remove(self, nodes: Iterable[int]) -> None:
         """Remove all branches at some nodes, and the nodes; nothing takes over what they owned."""
@@ -205,12 +201,16 @@ class Net:
         """Remove the points at some positions on a branch of a loop; their load goes to the ends of what is left."""
         chain = self.branches[name]
         first, after = max(neck.start, 1), min(neck.stop, len(chain) - 1)
-        halves = chain[:first], chain[after:]
-        self._take(name)
         middle = max((first + after) // 2, first)
         self._give(chain[first:middle], chain[first - 1])
         self._give(chain[middle:after], chain[after])
-        for half in halves:
+        self._divide(name, first, after)
+
+    def _divide(self, name: int, first: int, after: int) -> None:
+        """Replace a branch by what lies before one position and from another one on; single points go."""
+        chain = self.branches[name]
+        self._take(name)
+        for half in (chain[:first], chain[after:]):
             if len(half) > 1:
                 self.add(half)
         for node in {chain[0], chain[-1]}:

@@ -35,12 +35,7 @@ class Removals:
 def removals_of(loaded: LoadedNet, genuine: int, share: float) -> Removals:
     """Take a net apart as far as a skeleton needs it: limbs that touch, pinholes, then leaves that are no limbs.
 
-    Parameters
-    ----------
-    loaded : LoadedNet
-        Its net is changed.
-    genuine, share
-        As in `clear_loops` and `drop_leaves`.
+    The net is changed; `genuine` and `share` are as in `clear_loops` and `drop_leaves`.
     """
     return recorded(loaded.net, joined.from_iterable(_steps(loaded, genuine, share)))
 

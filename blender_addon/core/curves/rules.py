@@ -43,13 +43,7 @@ class Loops:
 def clear_loops(net: Net, spacing: Floats, genuine: int = 0) -> Loops:
     """Cut and fill the small loops, the thinnest first.
 
-    Parameters
-    ----------
-    net : Net
-    spacing : (p,) float64
-        The spacing of the samples around each point.
-    genuine : int
-        At least this many loops are kept.
+    The (p,) spacing is that of the samples around each point. At least `genuine` loops are kept.
     """
     cut = sum(1 for _ in cut_loops(net, spacing, genuine))
     return Loops(cut, sum(1 for _ in fill_loops(net, spacing, genuine)))
@@ -118,13 +112,8 @@ def prune(net: Net, share: float, balls: Balls) -> None:
 def drop_leaves(net: Net, share: float, balls: Balls) -> Iterator[None]:
     """Remove a leaf that is not a limb at each step, the lightest first.
 
-    Parameters
-    ----------
-    net : Net
-    share : float
-        A limb that just reaches out owns at least this share of the surface; the farther a limb reaches, the less.
-    balls : Balls
-        The balls of the samples, by the points that own them.
+    A limb that just reaches out owns at least this share of the surface; the farther a limb reaches, the less. The
+    balls are those of the samples, by the points that own them.
     """
     queue = [(net.carried(name), name) for name in net.leaves()]
     heapq.heapify(queue)

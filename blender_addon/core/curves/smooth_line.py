@@ -205,11 +205,7 @@ def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> Floats:
     Row j of `bands` has the entries (j, j), (j + 1, j), and so on; those beyond the matrix are 0. NumPy has no such
     method. Products of small lists are faster in plain Python; for many matrices each entry is an array.
 
-    Parameters
-    ----------
-    bands : list of n lists
-    columns : list of 3 lists of n
-        They are changed.
+    The n bands and the three columns of n are lists; the columns are changed.
     """
     size, reach = len(bands), _BAND - 1
     pivots: list[Any] = []

@@ -105,11 +105,7 @@ def _edges_of(graph: Graph, vertices: Longs) -> tuple[Longs, Longs]:
 def groups_of(rows: Longs, edges: Ints) -> Longs:
     """Return the number of the connected group of each row, (r,), from 0; only edges between two of the rows count.
 
-    Parameters
-    ----------
-    rows : (r,) int64
-        Ascending.
-    edges : (e, 2) int32
+    The rows ascend, and the edges are (e, 2).
     """
     at = np.full(max(int(rows.max(initial=-1)), int(edges.max(initial=-1))) + 1, -1, np.int64)
     at[rows] = np.arange(len(rows))

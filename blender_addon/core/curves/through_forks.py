@@ -32,15 +32,9 @@ def ways_through(
 ) -> list[Way]:
     """Return ways that have each wire once, in the order of their first wires.
 
-    Parameters
-    ----------
-    wires : list of list of int
-        Rows of `points` from node to node, of which only `held` ones may have exactly two wires of different numbers.
-    points : (n, 3) float64
-    radius : (n,) float64
-        The directions of wires at a fork are those after so long a way.
-    held : set of int
-        Nodes at which every way ends.
+    Wires are rows of the (n, 3) points from node to node, of which only `held` ones may have exactly two wires of
+    different numbers; there every way ends. The directions of wires at a fork are those after a way as long as its
+    radius.
     """
     ends: dict[int, list[int]] = {}  # the start of wire 3 is end 6, its end is end 7
     for number, wire in enumerate(wires):

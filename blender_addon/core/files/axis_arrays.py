@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats
-from ..axis.medial_axis import LevelValues, MedialAxis, no_edges
+from ..axis.medial_axis import AS_PUBLISHED, LevelValues, MedialAxis, no_edges
 from ..axis.structure import FIELDS, Structure
 
 # Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
-_OTHERS = ("level", "structure")
-NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name not in _OTHERS)
+NAMES = AS_PUBLISHED
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti", "place")
 # Only axes whose structure is known have these.
 STRUCTURE_NAMES = FIELDS

@@ -22,30 +22,15 @@ def _no_vertices() -> Ints:
 
 @dataclass(frozen=True, eq=False)
 class ImportedPoints:
-    """This is the content of a file: points, and its normals, faces and warnings if there are any.
+    """This is the content of a file: points, and its normals, faces and warnings if there are any."""
 
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-        They are finite, and in the order of the file; none are merged.
-    normals : (n, 3) float64 or None
-        They have any length; a point without a normal has zero.
-    face_offsets : (f + 1,) int32
-        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, at least three.
-    face_vertices : (c,) int32
-        Rows of `vertices`.
-    warnings : tuple of str
-        Each sentence names a part of the file that was not read.
-    single : bool
-        The file has the coordinates as float32.
-    """
-
-    vertices: Floats
-    normals: Floats | None = None
+    vertices: Floats  # (n, 3) They are finite, and in the order of the file; none are merged
+    normals: Floats | None = None  # (n, 3) They have any length; a point without a normal has zero
+    # (f + 1,) Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, at least three
     face_offsets: Ints = field(default_factory=_no_offsets)
-    face_vertices: Ints = field(default_factory=_no_vertices)
-    warnings: tuple[str, ...] = ()
-    single: bool = False
+    face_vertices: Ints = field(default_factory=_no_vertices)  # (c,) Rows of `vertices`
+    warnings: tuple[str, ...] = ()  # Each sentence names a part of the file that was not read
+    single: bool = False  # The file has the coordinates as float32
 
     @property
     def faces(self) -> int:

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from ..arrays import Ints, Longs
 from ..axis.polygon_triangles import axis_triangles
 from ..errors import ExportError
-from .rows_of_text import write_rows
+from . import write_triangles
+from .writing import write_rows
 
 _HEADER = """ply
 format ascii 1.0
@@ -89,17 +90,13 @@ def write_ply(axis: Any, stream: BinaryIO) -> None:
 
 def write_obj(axis: Any, stream: BinaryIO) -> None:
     stream.write(comment_of(axis, "#").encode("ascii"))
-    write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
-    write_rows(stream, "f %d %d %d\n", _triangles(axis)[0] + 1)  # OBJ counts from 1
+    write_triangles.write_obj(axis.vertices, _triangles(axis)[0], stream)
     write_lines(axis, stream)
 
 
 def write_off(axis: Any, stream: BinaryIO) -> None:
     _require_facets(axis)
-    triangles, _ = _triangles(axis)
-    stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), len(triangles)))
-    write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
-    write_rows(stream, "3 %d %d %d\n", triangles)
+    write_triangles.write_off(axis.vertices, _triangles(axis)[0], stream)
 
 
 def _require_facets(axis: Any) -> None:

@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..axis.medial_axis import MedialAxis
+from ..axis.medial_axis import MedialAxis, without_samples
 from ..errors import ReadError
 from .text import open_file, skip_mark
 
 _WIDTHS = {b"v": 4, b"e": 2, b"f": 3}
-_INNER = 1  # the inner side has this value in `_medial.Side`
 
 
 def read_ma(path: str | os.PathLike) -> MedialAxis:
@@ -46,20 +45,9 @@ def read_ma(path: str | os.PathLike) -> MedialAxis:
     pairs, corners = _ids(edges, counts[0], name), _ids(triangles, counts[0], name)
     if (vertices[:, 3] < 0).any():
         raise ReadError(f"Expected radii of 0 or more in '{name}', found a negative one; mend it")
-    always = np.full(len(corners), np.inf)
-    return MedialAxis(
-        vertices=np.ascontiguousarray(vertices[:, :3]),
-        radius=np.ascontiguousarray(vertices[:, 3]),
-        face_offsets=np.arange(0, 3 * len(corners) + 1, 3, dtype=np.int32),
-        face_vertices=corners.reshape(-1),
-        theta=always,
-        rho=always,
-        side=np.full(len(corners), _INNER, np.int32),
-        generators=np.full((len(corners), 2), -1, np.int32),
-        unbounded=0,
-        zero_area=0,
-        edges=_alone(pairs, corners),
-    )
+    offsets = np.arange(0, 3 * len(corners) + 1, 3, dtype=np.int32)
+    places, radius = (np.ascontiguousarray(part) for part in (vertices[:, :3], vertices[:, 3]))
+    return without_samples(places, radius, offsets, corners.reshape(-1), _alone(pairs, corners))
 
 
 def _lines(content: bytes) -> list[tuple[int, list[bytes]]]:

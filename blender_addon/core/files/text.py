@@ -30,24 +30,13 @@ _BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # bytes.split() splits a
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows are lines of numbers.
+    """Rows are lines of numbers."""
 
-    Parameters
-    ----------
-    values : (t,) float64
-        The numbers, line after line. They are finite, unless the caller of `Lines.rows` checks that itself.
-    offsets : (r + 1,) int64
-        Row i is `values[offsets[i]:offsets[i + 1]]`; it is never empty.
-    lines : (r,) int64
-        The number of each line in the file, counted from 1.
-    name : str
-        The name of the file.
-    """
-
+    # (t,) The numbers, line after line. They are finite, unless the caller of `Lines.rows` checks that itself.
     values: Floats
-    offsets: Longs
-    lines: Longs
-    name: str
+    offsets: Longs  # (r + 1,) Row i is `values[offsets[i]:offsets[i + 1]]`; it is never empty
+    lines: Longs  # (r,) The number of each line in the file, counted from 1
+    name: str  # The name of the file
 
     def __len__(self) -> int:
         return len(self.lines)

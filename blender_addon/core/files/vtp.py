@@ -26,18 +26,9 @@ def write_vtp(
     of_points: Mapping[str, NDArray[Any]],
     of_cells: Mapping[str, NDArray[Any]],
 ) -> None:
-    """Write single points and lines.
+    """Write single points and lines, rows of the (p, 3) points; each is a cell, the (s,) single points first.
 
-    Parameters
-    ----------
-    stream : BinaryIO
-    points : (p, 3) float64
-    singles : (s,) int32
-        Rows of `points`, each a cell.
-    lines : list of (n,) int32
-        Rows of `points`, each line a cell after the single points.
-    of_points : {name: (p,) array}
-    of_cells : {name: (s + lines,) array}
+    Arrays of points are (p,), those of cells (s + lines,), by their names.
     """
     piece = f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(singles)}" '
     piece += f'NumberOfLines="{len(lines)}" NumberOfStrips="0" NumberOfPolys="0">'

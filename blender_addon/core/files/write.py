@@ -20,39 +20,34 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints, Longs
 from ..axis.medial_axis import MedialAxis
 from ..axis.polygon_triangles import axis_triangles
+from ..axis.structure_table import COLUMNS, rows_of
 from ..axis.turning import turned_corners
+from ..errors import ExportError
 from ..small_matrices import determinant, times
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
-from .extensions import extension_of
 from .placing import is_identity, parts_of
-from .rows_of_text import write_rows as _write_rows
-from .whole_file import write_whole
-from .write_parts import write_csv
-
-_CHUNK = 1 << 16  # this many rows are formatted at once, which bounds the memory of one write
+from .writing import (
+    CHUNK,
+    Columns,
+    extension_of,
+    ply_places,
+    ply_properties,
+    ply_rows,
+    write_rows,
+    write_whole,
+)
 
 
 @dataclass(frozen=True)
 class Format:
-    """A format describes one kind of file.
+    """A format describes one kind of file."""
 
-    Parameters
-    ----------
-    label : str
-        The name that menus and file dialogs show.
-    write : callable
-        It takes the axis and a binary stream.
-    write_triangles : callable or None
-        It writes the axis as triangles in text; it is None if the format has no such variant.
-    holds_edges : bool
-        Whether triangles in text include edges without a facet.
-    """
-
-    label: str
-    write: Callable[[Any, BinaryIO], None]
+    label: str  # The name that menus and file dialogs show
+    write: Callable[[Any, BinaryIO], None]  # It takes the axis and a binary stream
+    # It writes the axis as triangles in text; it is None if the format has no such variant
     write_triangles: Callable[[Any, BinaryIO], None] | None = None
-    holds_edges: bool = True
+    holds_edges: bool = True  # Whether triangles in text include edges without a facet
 
 
 def export_axis(
@@ -132,8 +127,8 @@ def _write_polygons(
     """Write one line per polygon; `row_of(count)` is the %-format of a polygon with `count` corners."""
     rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
     ends = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
-    for start in range(0, len(counts), _CHUNK):
-        chunk = counts[start : start + _CHUNK].tolist()
+    for start in range(0, len(counts), CHUNK):
+        chunk = counts[start : start + CHUNK].tolist()
         text = "".join([rows[count] for count in chunk])
         values = tokens[ends[start] : ends[start + len(chunk)]]
         stream.write((text % tuple(values.tolist())).encode("ascii"))
@@ -145,9 +140,9 @@ def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     triangles = axis_triangles(replace(axis, vertices=vertices))
     edges = _edges(triangles, axis.edges, len(vertices))
     stream.write(b"%d %d %d\n" % (len(vertices), len(edges), len(triangles)))
-    _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", vertices, radius)
-    _write_rows(stream, "e %d %d\n", edges)
-    _write_rows(stream, "f %d %d %d\n", triangles)
+    write_rows(stream, "v %.17g %.17g %.17g %.17g\n", vertices, radius)
+    write_rows(stream, "e %d %d\n", edges)
+    write_rows(stream, "f %d %d %d\n", triangles)
 
 
 def _edges(triangles: Ints, alone: Ints, vertex_count: int) -> Longs:
@@ -160,7 +155,7 @@ def _edges(triangles: Ints, alone: Ints, vertex_count: int) -> Longs:
 
 def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
     stream.write(plain_triangles.comment_of(axis, "#").encode("ascii"))
-    _write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
+    write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
     _write_polygons(
         stream,
         lambda count: "f" + " %d" * count + "\n",
@@ -173,86 +168,63 @@ def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
 def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
     faces = axis.facets + len(axis.edges)
     stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), faces))
-    _write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
+    write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
     _write_polygons(
         stream,
         lambda count: str(count) + " %d" * count + "\n",
         np.diff(axis.face_offsets),
         axis.face_vertices,
     )
-    _write_rows(stream, "2 %d %d\n", axis.edges)  # OFF has no other edges
+    write_rows(stream, "2 %d %d\n", axis.edges)  # OFF has no other edges
 
 
 def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     counts = np.diff(axis.face_offsets)
-    count_type = "uchar" if counts.max(initial=0) < 256 else "int"
-    known = axis.level is not None
-    of_faces = _ply_floats("sheet", "erosion") if known else ""
-    of_vertices = ""
-    if axis.structure is not None:
-        of_faces, of_vertices = of_faces + "property int part\n", "property int kind\n"
-    of_vertices += "property int place\n" if known else ""
-    of_edges = _ply_floats("limb") if known else ""
+    count_type, of_numpy = ("uchar", "u1") if counts.max(initial=0) < 256 else ("int", "<i4")
+    vertices, faces, edges = _ply_columns(axis)
     header = f"""ply
 format binary_little_endian 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
 {plain_triangles.comment_of(axis, "comment")}element vertex {len(axis.vertices)}
-property double x
-property double y
-property double z
-property double radius
-{of_vertices}element face {len(counts)}
+{ply_properties(vertices)}element face {len(counts)}
 property list {count_type} int vertex_indices
-property double theta
-property double rho
-property int side
-property int generator_p
-property int generator_q
-{of_faces}element edge {len(axis.edges)}
-property int vertex1
-property int vertex2
-{of_edges}end_header
+{ply_properties(faces)}element edge {len(axis.edges)}
+{ply_properties(edges)}end_header
 """
     stream.write(header.encode("ascii"))
-    stream.write(_ply_vertices(axis).tobytes())
-    for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
-        stream.write(faces)
-    stream.write(_ply_edges(axis).tobytes())
+    stream.write(ply_rows(vertices).tobytes())
+    for piece in _ply_faces(axis, counts, of_numpy, faces):
+        stream.write(piece)
+    stream.write(ply_rows(edges).tobytes())
 
 
-def _ply_vertices(axis: MedialAxis) -> NDArray:
-    fields: list[tuple[Any, ...]] = [("place", "<f8", (3,)), ("radius", "<f8")]
-    if axis.structure is not None:
-        fields.append(("kind", "<i4"))
-    if axis.level is not None:
-        fields.append(("placing", "<i4"))
-    rows = np.empty(len(axis.vertices), fields)
-    rows["place"], rows["radius"] = axis.vertices, axis.radius
-    if axis.structure is not None:
-        rows["kind"] = axis.structure.kind
-    if axis.level is not None:
-        rows["placing"] = axis.level.place
-    return rows
+def _ply_columns(axis: MedialAxis) -> tuple[Columns, Columns, Columns]:
+    """Return the values of vertices, of faces beside their corners, and of edges."""
+    vertices: Columns = {**ply_places(axis.vertices), "radius": ("<f8", axis.radius)}
+    faces: Columns = {
+        "theta": ("<f8", axis.theta),
+        "rho": ("<f8", axis.rho),
+        "side": ("<i4", axis.side),
+    }
+    faces |= {f"generator_{name}": ("<i4", axis.generators[:, i]) for i, name in enumerate("pq")}
+    edges: Columns = {f"vertex{end + 1}": ("<i4", axis.edges[:, end]) for end in range(2)}
+    if (level := axis.level) is not None:
+        faces |= {"sheet": ("<f4", level.sheet), "erosion": ("<f4", level.erosion)}
+        edges["limb"] = "<f4", level.limb
+    if (structure := axis.structure) is not None:
+        vertices["kind"], faces["part"] = ("<i4", structure.kind), ("<i4", structure.part)
+    if level is not None:
+        vertices["place"] = "<i4", level.place
+    return vertices, faces, edges
 
 
-def _ply_floats(*names: str) -> str:
-    return "".join(f"property float {name}\n" for name in names)
-
-
-def _ply_faces(axis: MedialAxis, counts: Ints, count_type: str) -> Iterator[bytes]:
+def _ply_faces(
+    axis: MedialAxis, counts: Ints, count_type: str, columns: Columns
+) -> Iterator[bytes]:
     """Yield the face element in pieces: rows of one length are packed together and scattered to their places."""
-    fixed: list[tuple[Any, ...]] = [
-        ("theta", "<f8"),
-        ("rho", "<f8"),
-        ("side", "<i4"),
-        ("generators", "<i4", (2,)),
-    ]
-    if axis.level is not None:
-        fixed += [("sheet", "<f4"), ("erosion", "<f4")]
-    if axis.structure is not None:
-        fixed += [("part", "<i4")]
-    for start in range(0, len(counts), _CHUNK):
-        chunk = counts[start : start + _CHUNK]
+    fixed = [(name, kind) for name, (kind, _) in columns.items()]
+    for start in range(0, len(counts), CHUNK):
+        chunk = counts[start : start + CHUNK]
         row_sizes = np.dtype([("count", count_type), *fixed]).itemsize + 4 * chunk.astype(np.int64)
         row_ends = np.cumsum(row_sizes)
         row_starts = row_ends - row_sizes
@@ -265,27 +237,11 @@ def _ply_faces(axis: MedialAxis, counts: Ints, count_type: str) -> Iterator[byte
             )
             rows["count"] = count
             rows["corners"] = axis.face_vertices[axis.face_offsets[ids][:, None] + np.arange(count)]
-            for name, *_ in fixed:
-                rows[name] = _of_faces(axis, name)[ids]
+            for name, (_, column) in columns.items():
+                rows[name] = column[ids]
             places = row_starts[local][:, None] + np.arange(rows.itemsize)
             piece[places] = rows.view(np.uint8).reshape(len(rows), -1)
         yield piece.tobytes()
-
-
-def _of_faces(axis: MedialAxis, name: str) -> NDArray:
-    holders = (axis, axis.level, axis.structure)
-    return next(getattr(holder, name) for holder in holders if hasattr(holder, name))
-
-
-def _ply_edges(axis: MedialAxis) -> NDArray:
-    ends = np.dtype([("ends", "<i4", (2,))])
-    if axis.level is None:
-        rows = np.empty(len(axis.edges), ends)
-    else:
-        rows = np.empty(len(axis.edges), [*ends.descr, ("limb", "<f4")])
-        rows["limb"] = axis.level.limb
-    rows["ends"] = axis.edges
-    return rows
 
 
 def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
@@ -294,6 +250,25 @@ def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
         for name, array in as_arrays(axis).items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
                 np.lib.format.write_array(entry, array, allow_pickle=False)
+
+
+def _write_csv(axis: MedialAxis, stream: BinaryIO) -> None:
+    """Write a row for each part; lists of numbers are separated by spaces. An axis as published or a curve has none."""
+    structure = axis.structure
+    if structure is None:
+        raise ExportError(
+            "Expected a medial axis with sheets for a table of parts, found one without; "
+            "compute the form Clean of the inner axis"
+        )
+    stream.write((",".join(COLUMNS) + "\n").encode("ascii"))
+    for row in rows_of(structure):
+        stream.write((",".join(_text(row[name]) for name in COLUMNS) + "\n").encode("ascii"))
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, list):
+        return " ".join(map(str, value))
+    return f"{value:.17g}" if isinstance(value, float) else str(value)
 
 
 FORMATS: dict[str, Format] = {
@@ -309,5 +284,5 @@ FORMATS: dict[str, Format] = {
         "OFF, polygons and lines", _write_off, plain_triangles.write_off, holds_edges=False
     ),
     ".npz": Format("NumPy arrays, everything", _write_npz),
-    ".csv": Format("Table of parts", write_csv),
+    ".csv": Format("Table of parts", _write_csv),
 }

@@ -13,10 +13,8 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..shape.triangles import unit_normals
 from ..small_matrices import placed
-from .extensions import extension_of
 from .rounding import check_stl
-from .rows_of_text import write_rows
-from .whole_file import write_whole
+from .writing import extension_of, ply_places, write_ply, write_rows, write_whole
 
 
 def export_triangles(
@@ -59,38 +57,24 @@ def write_stl(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     stream.write(facets.tobytes())
 
 
-def _write_obj(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
+def write_obj(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
     write_rows(stream, "v %.17g %.17g %.17g\n", points)
-    write_rows(stream, "f %d %d %d\n", triangles + 1)
+    write_rows(stream, "f %d %d %d\n", triangles + 1)  # OBJ counts from 1
 
 
-def _write_off(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
-    stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n".encode("ascii"))
+def write_off(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
+    stream.write(b"OFF\n%d %d 0\n" % (len(points), len(triangles)))
     write_rows(stream, "%.17g %.17g %.17g\n", points)
     write_rows(stream, "3 %d %d %d\n", triangles)
 
 
 def _write_ply(points: Floats, triangles: Ints, stream: BinaryIO) -> None:
-    header = f"""ply
-format binary_little_endian 1.0
-element vertex {len(points)}
-property double x
-property double y
-property double z
-element face {len(triangles)}
-property list uchar int vertex_indices
-end_header
-"""
-    stream.write(header.encode("ascii"))
-    stream.write(points.astype("<f8").tobytes())
-    faces = np.empty(len(triangles), [("n", "u1"), ("corners", "<i4", 3)])
-    faces["n"], faces["corners"] = 3, triangles
-    stream.write(faces.tobytes())
+    write_ply(stream, ply_places(points), triangles, {})
 
 
 TRIANGLE_FORMATS: dict[str, Callable[[Floats, Ints, BinaryIO], None]] = {
     ".stl": write_stl,
     ".ply": _write_ply,
-    ".obj": _write_obj,
-    ".off": _write_off,
+    ".obj": write_obj,
+    ".off": write_off,
 }

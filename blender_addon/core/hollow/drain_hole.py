@@ -22,19 +22,12 @@ _CLEAR = 0.1  # so much slope at least the distance has where a shortest way is 
 
 @dataclass(frozen=True, eq=False)
 class DrainHole:
-    """A cylinder that opens the wall.
+    """A cylinder that opens the wall."""
 
-    Parameters
-    ----------
-    start, end : (3,) float64
-        The middles of its ends, in the cavity and outside.
-    width : float
-        Its diameter.
-    """
-
+    # (3,) The middles of its ends, in the cavity and outside
     start: Floats
     end: Floats
-    width: float
+    width: float  # Its diameter
 
 
 def drain_hole(found: Hollow, width: float, down: Floats, near: Floats | None = None) -> DrainHole:

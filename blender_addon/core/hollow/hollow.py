@@ -34,46 +34,21 @@ _BOUNDING = 0.999  # where less of the faces bounds the solid, a warning says so
 
 @dataclass(frozen=True, eq=False)
 class Hollow(TriangleFaces):
-    """A solid with a cavity.
+    """A solid with a cavity."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-        The points of the shape, in its frame, then those of the cavity.
-    triangles : (f, 3) int32
-        The triangles of the shape, outward, then those of the cavity, which look into it.
-    outer : int
-        So many triangles are those of the shape.
-    wall : float
-        The wall that was asked for.
-    step : float
-        The edge of the cubes of the lattice.
-    least : float
-        Nowhere is the wall thinner: a bound, not a measurement.
-    deepest : float
-        The greatest distance of the middle of a triangle of the cavity from the faces.
-    volume, solid_volume : float
-        Of what is left, and of the solid before.
-    cavities : int
-        The connected spaces in the solid.
-    loose : int
-        The walls that are not connected with the outer one: those round cavities that the solid had.
-    shape : Shape
-    points, duplicates : int
-    warnings : tuple of str
-    seconds : float
-    """
-
-    vertices: Floats
+    vertices: Floats  # (v, 3) The points of the shape, in its frame, then those of the cavity
+    # (f, 3) The triangles of the shape, outward, then those of the cavity, which look into it
     triangles: Ints
-    outer: int
-    wall: float
-    step: float
-    least: float
-    deepest: float
+    outer: int  # So many triangles are those of the shape
+    wall: float  # The wall that was asked for
+    step: float  # The edge of the cubes of the lattice
+    least: float  # Nowhere is the wall thinner: a bound, not a measurement
+    deepest: float  # The greatest distance of the middle of a triangle of the cavity from the faces
+    # The volumes of what is left, and of the solid before
     volume: float
     solid_volume: float
-    cavities: int
+    cavities: int  # The connected spaces in the solid
+    # The walls that are not connected with the outer one: those round cavities that the solid had
     loose: int
     shape: Shape
     warnings: tuple[str, ...]

@@ -36,20 +36,11 @@ _BESIDE = 2 * np.concatenate((np.identity(3, int), -np.identity(3, int)))
 
 @dataclass(frozen=True, eq=False)
 class OffsetSurface:
-    """A closed surface without self-crossings.
+    """A closed surface without self-crossings."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    triangles : (t, 3) int32
-        Counter-clockwise as seen from the faces of the solid.
-    distances : (v,) float64
-        How far each vertex is from the faces.
-    """
-
-    vertices: Floats
-    triangles: Ints
-    distances: Floats
+    vertices: Floats  # (v, 3)
+    triangles: Ints  # (t, 3) Counter-clockwise as seen from the faces of the solid
+    distances: Floats  # (v,) How far each vertex is from the faces
 
 
 def offset_surface(

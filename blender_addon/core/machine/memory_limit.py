@@ -23,27 +23,14 @@ _DIGITS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Use:
-    """A use describes what an analysis is for; its peak of memory depends on that.
+    """A use describes what an analysis is for; its peak of memory depends on that."""
 
-    Parameters
-    ----------
-    faces : bool
-        The surface has faces, so that Tight Cocone is not needed.
-    side : Side
-        The side of the facets that are wanted; AUTOMATIC counts as INNER.
-    levels : bool
-        A level of the hierarchy is wanted, not the facets of the published method.
-    output : str
-        The extension of the file that is written, OBJECT in Blender, CURVE, or "".
-    triangles : int
-        The triangles of the faces that give crisp places; 0 without crisp places.
-    """
-
-    faces: bool = True
-    side: Side = Side.INNER
+    faces: bool = True  # The surface has faces, so that Tight Cocone is not needed
+    side: Side = Side.INNER  # The side of the facets that are wanted; AUTOMATIC counts as INNER
+    # A level of the hierarchy is wanted, not the facets of the published method
     levels: bool = False
-    output: str = ""
-    triangles: int = 0
+    output: str = ""  # The extension of the file that is written, OBJECT in Blender, CURVE, or ""
+    triangles: int = 0  # The triangles of the faces that give crisp places; 0 without crisp places
 
 
 @dataclass(frozen=True)

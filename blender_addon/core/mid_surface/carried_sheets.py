@@ -17,9 +17,8 @@ from ..arrays import Flags, Floats, Ints, Longs
 from ..machine.native import own_errors
 from ..shape.triangles import edges_of, unit_normals
 from ..small_matrices import dot, shortest_solutions, summed
-from .between_walls import between_walls
 from .sheet_rims import rims, single_edges
-from .sheet_walls import TOUCHES, Walls, reflex_distances
+from .sheet_walls import TOUCHES, Walls, between_walls, reflex_distances
 from .thin_sheets import ThinSheets
 from .unfolded_sheets import unfolded
 

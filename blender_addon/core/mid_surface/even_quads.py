@@ -22,13 +22,7 @@ _STRAIGHT = 0.94  # the cosine of the turn at a corner of a polygon that is none
 def even_quads(faces: SheetFaces, length: float, progress: Progress | None = None) -> SheetFaces:
     """Remesh sheets to quadrilaterals, and to triangles where these do not fit; sheets that share edges still do.
 
-    Parameters
-    ----------
-    faces : SheetFaces
-        Neighbours of the same sheet turn the same way.
-    length : float
-        Of the edges that are wanted.
-    progress : Progress, optional
+    Neighbours of the same sheet turn the same way; `length` is that of the edges that are wanted.
     """
     faces = _with_borders_divided(faces, length)
     alone = np.bincount(faces.part)[faces.part] == 1

@@ -52,41 +52,21 @@ _DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: 
 
 @dataclass(frozen=True, eq=False)
 class MidSurface(OfChosenSamples):
-    """Sheets with thickness; those that meet share edges.
+    """Sheets with thickness; those that meet share edges."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-        In the frame of the shape.
-    face_offsets : (f + 1,) int32
-    face_vertices : (c,) int32
-        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`. All faces of a sheet turn the
-        same way.
-    part : (f,) int32
-        The sheet of each face, 0 to `sheets` - 1.
-    thickness : (f,) float64
-        Of the wall at the middle of each face.
-    of_vertices : (v,) float64
-        Of the wall at each vertex; where sheets meet, the thickness of the thickest.
-    sheets : int
-    share : float
-        The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
-    thick : ThickFaces or None
-        Where it was asked for, the faces of the solid that no sheet stands for.
-    shape : Shape
-    chosen : ChosenSamples
-    warnings : tuple of str
-    seconds : float
-    """
-
-    vertices: Floats
-    face_offsets: Ints
+    vertices: Floats  # (v, 3) In the frame of the shape
+    face_offsets: Ints  # (f + 1,)
+    # (c,) Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`. All faces of a sheet turn the
+    # same way.
     face_vertices: Ints
-    part: Ints
-    thickness: Floats
+    part: Ints  # (f,) The sheet of each face, 0 to `sheets` - 1
+    thickness: Floats  # (f,) Of the wall at the middle of each face
+    # (v,) Of the wall at each vertex; where sheets meet, the thickness of the thickest
     of_vertices: Floats
     sheets: int
+    # The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
     share: float
+    # Where it was asked for, the faces of the solid that no sheet stands for
     thick: ThickFaces | None
     shape: Shape
     chosen: ChosenSamples
@@ -330,15 +310,13 @@ def _left_out(share: float, least: float, spacing: float) -> tuple[str, ...]:
         )
     if share >= _MOST:
         return ()
-    if least >= spacing:
-        return (
-            f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides "
-            "what counts as thin",
-        )
-    return (
-        f"the sheets have {percent(share)} of the volume; what is not thin is left out, as Least Width decides, and "
-        f"so are tips that are narrower than samples are apart, {spacing:.2g}; more samples reach farther into these",
+    tips = (
+        f", as Least Width decides, and so are tips that are narrower than samples are apart, {spacing:.2g}; more "
+        "samples reach farther into these"
     )
+    if least >= spacing:
+        tips = ", and Least Width decides what counts as thin"
+    return (f"the sheets have {percent(share)} of the volume; what is not thin is left out{tips}",)
 
 
 def _torn(triangles: Ints, found: Computation, thin: ThinSheets) -> tuple[str, ...]:

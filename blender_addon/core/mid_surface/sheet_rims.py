@@ -50,20 +50,12 @@ class RimEdges:
 
 @dataclass(frozen=True, eq=False)
 class Rims:
-    """The edges at which sheets end, and the planes in which they end.
-
-    Parameters
-    ----------
-    edges : RimEdges
-    chains : list of Chain
-    kind : (k,) int64
-    places, normals : (k, 3) float64
-        Of the wall at each edge; zero normals where there is none.
-    """
+    """The edges at which sheets end, and the planes in which they end."""
 
     edges: RimEdges
     chains: list[Chain]
-    kind: Longs
+    kind: Longs  # (k,)
+    # (k, 3) Of the wall at each edge; zero normals where there is none
     places: Floats
     normals: Floats
 

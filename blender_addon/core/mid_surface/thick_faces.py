@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..machine.native import own_errors
 from ..shape.shape import Shape
+from ..shape.triangle_faces import TriangleFaces
 from .sheet_faces import SheetFaces
 
 _BESIDE = 0.6  # thicknesses from a sheet its walls lie at most; half of one where it is straight; derived: above 1 / 2
@@ -20,16 +21,11 @@ Lengths = Callable[["Floats", "Ints"], "Floats"]
 
 
 @dataclass(frozen=True, eq=False)
-class ThickFaces:
+class ThickFaces(TriangleFaces):
     """Triangles as a mesh."""
 
     vertices: Floats  # (v, 3)
-    face_offsets: Ints  # (t + 1,)
-    face_vertices: Ints  # (3 t,)
-
-    @property
-    def triangles(self) -> Ints:
-        return self.face_vertices.reshape(-1, 3)
+    triangles: Ints  # (t, 3)
 
 
 def thick_faces(shape: Shape, sheets: SheetFaces, lengths: Lengths) -> ThickFaces:
@@ -56,8 +52,7 @@ def thick_faces(shape: Shape, sheets: SheetFaces, lengths: Lengths) -> ThickFace
         beside[rows[away <= _BESIDE * thickness]] = True
     share = beside.reshape(len(corners), -1).mean(axis=1)
     used, row = np.unique(shape.triangles[share < 0.5], return_inverse=True)
-    offsets = np.arange(0, row.size + 1, 3, dtype=np.int32)
-    return ThickFaces(shape.points[used], offsets, row.reshape(-1).astype(np.int32))
+    return ThickFaces(shape.points[used], row.reshape(-1, 3).astype(np.int32))
 
 
 def _grid() -> Floats:

@@ -16,13 +16,8 @@ _THICK = 2.0  # derived: above sqrt(2)
 
 
 def joined_by_thick_parts(axis: MedialAxis, thin: ThinSheets) -> int:
-    """How many pieces fewer the thin sheets would have if the thick parts that join them were not left out.
-
-    Parameters
-    ----------
-    axis : MedialAxis
-        The axis from which the sheets were chosen.
-    thin : ThinSheets
+    """How many pieces fewer the thin sheets, chosen from an axis, would have if the thick parts that join them were not
+    left out.
     """
     count = len(axis.vertices)
     sizes = np.diff(axis.face_offsets)

@@ -10,11 +10,12 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
 from ..axis.directions import corners_after, facet_areas, facet_normals
-from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import ON_CREASE, LevelValues, MedialAxis
+from ..axis.polygon_triangles import triangulate_facets
 from ..axis.structure import Structure
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
+from ..shape.triangles import equal_pairs
 from ..united import united
 from .sheet_faces import TRIFLE
 
@@ -29,41 +30,19 @@ _SLIVER = 0.02  # a facet with less area of a disc of its perimeter has no slope
 
 @dataclass(frozen=True, eq=False)
 class ThinSheets:
-    """Triangles of the sheets that are walls; the vertices are those of the axis.
+    """Triangles of the sheets that are walls; the vertices are those of the axis."""
 
-    Parameters
-    ----------
-    vertices : (v, 3) float64
-    radius : (v,) float64
-    at_edge : (v,) bool
-        On a sharp convex edge of the solid.
-    triangles : (t, 3) int32
-        Those of a sheet turn the same way.
-    part : (t,) int32
-        The sheet of each triangle, 0 to `parts` - 1.
-    facet : (t,) int64
-        The facet of the axis that each triangle is a part of.
-    facing : (t,) bool
-        Whether the walls face each other there; no others tell where their sheet goes on.
-    sliver : (t,) bool
-        The facet is hardly more than a line, and tells nothing.
-    normals : (t, 3) float64
-        Unit normals of the facets that the triangles are of.
-    slopes : (t, 3) float64
-        How the radius changes along those facets.
-    parts : int
-    """
-
-    vertices: Floats
-    radius: Floats
-    at_edge: Flags
-    triangles: Ints
-    part: Ints
-    facet: Longs
+    vertices: Floats  # (v, 3)
+    radius: Floats  # (v,)
+    at_edge: Flags  # (v,) On a sharp convex edge of the solid
+    triangles: Ints  # (t, 3) Those of a sheet turn the same way
+    part: Ints  # (t,) The sheet of each triangle, 0 to `parts` - 1
+    facet: Longs  # (t,) The facet of the axis that each triangle is a part of
+    # (t,) Whether the walls face each other there; no others tell where their sheet goes on
     facing: Flags
-    sliver: Flags
-    normals: Floats
-    slopes: Floats
+    sliver: Flags  # (t,) The facet is hardly more than a line, and tells nothing
+    normals: Floats  # (t, 3) Unit normals of the facets that the triangles are of
+    slopes: Floats  # (t, 3) How the radius changes along those facets
     parts: int
 
 
@@ -158,9 +137,7 @@ def _own_parts(axis: MedialAxis, structure: Structure, patches: Ints) -> tuple[I
     own = between(np.arange(len(part)), part)
     _, of_corner = _edges(axis)
     facet = np.repeat(np.arange(len(part)), np.diff(axis.face_offsets))
-    order = np.argsort(of_corner, kind="stable")
-    same = of_corner[order[1:]] == of_corner[order[:-1]]
-    beside = np.column_stack((facet[order[:-1]], facet[order[1:]]))[same]
+    beside = facet[np.column_stack(equal_pairs(of_corner))]
     beside = np.concatenate((beside, beside[:, ::-1]))
     while True:
         pairs = beside[~own[beside[:, 0]] & own[beside[:, 1]]]
@@ -218,9 +195,7 @@ def _in_wide_pieces(
     _, of_corner = _edges(axis)
     facet = np.repeat(np.arange(count), np.diff(axis.face_offsets))
     rows = np.flatnonzero(kept[facet])
-    rows = rows[np.argsort(of_corner[rows], kind="stable")]
-    same = of_corner[rows[1:]] == of_corner[rows[:-1]]
-    piece = united(count, np.column_stack((facet[rows[:-1]], facet[rows[1:]]))[same])
+    piece = united(count, facet[rows[np.column_stack(equal_pairs(of_corner[rows]))]])
     radii = np.add.reduceat(axis.radius[axis.face_vertices], axis.face_offsets[:-1])
     volume = np.bincount(piece, 2.0 * areas * radii / np.diff(axis.face_offsets), count)
     area = np.bincount(piece, areas, count)

@@ -15,10 +15,9 @@ from typing import BinaryIO
 import numpy as np
 
 from ..arrays import Floats, Ints, Longs
-from ..files.extensions import extension_of
 from ..files.rounding import check_stl
-from ..files.whole_file import write_whole
 from ..files.write_triangles import write_stl
+from ..files.writing import Columns, extension_of, ply_places, write_ply, write_rows, write_whole
 from ..small_matrices import placed
 from .mid_surface import MidSurface
 from .quad_pairs import least_sines
@@ -48,10 +47,11 @@ def export_mid_surface(
         The extension is unknown, `.stl` is too coarse so far from the origin, or the system refused to write; an old
         file is then unchanged.
     """
-    write = MID_SURFACE_FORMATS[extension_of(path, MID_SURFACE_FORMATS)]
+    suffix = extension_of(path, MID_SURFACE_FORMATS)
+    write = MID_SURFACE_FORMATS[suffix]
     points = found.vertices if frame is None else placed(found.vertices, frame)
     thick = found.thick if found.thick is not None and len(found.thick.triangles) else None
-    if thick is not None or extension_of(path, MID_SURFACE_FORMATS) == ".stl":
+    if thick is not None or suffix == ".stl":
         check_stl(points, frame, float(np.median(found.thickness)))
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
@@ -148,29 +148,13 @@ def _write_obj(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
 
 
 def _write_ply(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
-    triangles, of = found.triangles, found.face_of_triangles
-    header = f"""ply
-format binary_little_endian 1.0
-comment thickness of the wall at each vertex and face; part: the sheet of each face
-element vertex {len(points)}
-property double x
-property double y
-property double z
-property double thickness
-element face {len(triangles)}
-property list uchar int vertex_indices
-property double thickness
-property int part
-end_header
-"""
-    stream.write(header.encode("ascii"))
-    stream.write(np.column_stack((points, found.of_vertices)).astype("<f8").tobytes())
-    faces = np.empty(
-        len(triangles), [("n", "u1"), ("corners", "<i4", 3), ("length", "<f8"), ("part", "<i4")]
+    of = found.face_of_triangles
+    vertices: Columns = {**ply_places(points), "thickness": ("<f8", found.of_vertices)}
+    of_faces: Columns = {"thickness": ("<f8", found.thickness[of]), "part": ("<i4", found.part[of])}
+    comment = (
+        "comment thickness of the wall at each vertex and face; part: the sheet of each face\n"
     )
-    faces["n"], faces["corners"] = 3, triangles
-    faces["length"], faces["part"] = found.thickness[of], found.part[of]
-    stream.write(faces.tobytes())
+    write_ply(stream, vertices, found.triangles, of_faces, comment)
 
 
 def _write_stl(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
@@ -179,15 +163,10 @@ def _write_stl(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
 
 def _write_csv(found: MidSurface, points: Floats, stream: BinaryIO) -> None:
     """A row for each triangle of the `.stl`, in its order."""
-    middles = points[found.triangles].mean(axis=1).tolist()
-    of = found.face_of_triangles
-    rows = zip(middles, found.part[of].tolist(), found.thickness[of].tolist(), strict=True)
+    middles, of = points[found.triangles].mean(axis=1), found.face_of_triangles
     stream.write(b"triangle,x,y,z,sheet,thickness\n")
-    text = "".join(
-        f"{i},{x:.17g},{y:.17g},{z:.17g},{part + 1},{length:.17g}\n"
-        for i, ((x, y, z), part, length) in enumerate(rows)
-    )
-    stream.write(text.encode("ascii"))
+    columns = np.arange(len(of)), middles, found.part[of] + 1, found.thickness[of]
+    write_rows(stream, "%d,%.17g,%.17g,%.17g,%d,%.17g\n", *columns)
 
 
 MID_SURFACE_FORMATS: dict[str, Callable[[MidSurface, Floats, BinaryIO], None]] = {

@@ -25,18 +25,10 @@ from .product import Product
 
 @dataclass(frozen=True)
 class Axis(Product):
-    """Medial axes.
+    """Medial axes."""
 
-    Parameters
-    ----------
-    triangles : bool
-        Write triangles in text.
-    vertices : int
-        An axis is reduced to at most this many vertices; 0 keeps all.
-    """
-
-    triangles: bool = False
-    vertices: int = 0
+    triangles: bool = False  # Write triangles in text
+    vertices: int = 0  # An axis is reduced to at most this many vertices; 0 keeps all
 
     description = "The medial axis of meshes and point clouds, with radii."
     heading = "method"

@@ -37,17 +37,10 @@ PRODUCTS = {
 
 @dataclass(frozen=True)
 class Product(Work):
-    """A kind of result with its settings; the `repr` has all settings that an output depends on.
+    """A kind of result with its settings; the `repr` has all settings that an output depends on."""
 
-    Parameters
-    ----------
-    settings : Settings
-        Of the method; thresholds count for the axis alone.
-    wanted : object
-        The product's own settings, of the class `kind`; None where they are those of the method.
-    """
-
-    settings: Settings
+    settings: Settings  # They are those of the method; thresholds count for the axis alone
+    # The product's own settings, of the class `kind`; None where they are those of the method
     wanted: Any = None
 
     description: ClassVar[str]

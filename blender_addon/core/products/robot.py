@@ -13,8 +13,7 @@ import numpy as np
 
 from ..batch.option_words import add_sampling, as_words, sampling_from
 from ..errors import ExportError, InvalidInputError
-from ..files.extensions import listed
-from ..files.whole_file import write_whole
+from ..files.writing import listed, write_whole
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..robot.cover_robot import RobotCover, cover_robot

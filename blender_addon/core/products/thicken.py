@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..files.json_figures import known
 from ..files.write_triangles import TRIANGLE_FORMATS, export_triangles
+from ..files.writing import known
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import ThickenSettings

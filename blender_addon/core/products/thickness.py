@@ -4,24 +4,27 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..batch.batch import Item, begin, failure, make_folder, report_of, result_of
 from ..batch.option_words import add_sampling, add_thickness, settings_from
+from ..machine.job import Outcome, Task
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, ThicknessSettings
 from ..shape.shape import Shape
 from ..shape.triangles import FEW
 from ..thickness.measurement import Measurement
+from ..thickness.parts_page import PartRow, export_page, row_of, row_without, verdict_of
 from ..thickness.thickness import measure_thickness
 from ..thickness.thin_parts import find_thin_parts
 from ..thickness.write_thickness import THICKNESS_FORMATS, export_thickness, summary_of
 from .product import DONE, THIN, UNMEASURED, Product
-from .thickness_page import ThicknessPage
 
 
 @dataclass(frozen=True)
@@ -97,6 +100,45 @@ examples:
     def page(self, path: str) -> ThicknessPage:
         """Return a page for all outputs of a run."""
         return ThicknessPage(path, self, self.unit)
+
+
+class ThicknessPage:
+    """One page for all items of a batch; it is made anew each time, because it needs every measurement."""
+
+    def __init__(self, path: str, work: Product, unit: str) -> None:
+        self._path, self._work, self._unit = Path(path), work, unit
+        self._rows: list[PartRow] = []
+
+    def measured(
+        self, item: Item, limit: MemoryLimit, run: Callable[[Task], Outcome]
+    ) -> dict[str, Any]:
+        """Measure an item, give it a row, and return its report."""
+        work = self._work
+        begun = begin(replace(item, output=self._path), work, True, limit)
+        found = result_of(begun, run(begun.task))
+        report: dict[str, Any] = {**report_of(begun, found), "row": len(self._rows) + 1}
+        parts = find_thin_parts(found, work.wanted.limit)
+        self._rows.append(row_of(item.name, found, parts, self._unit, report["warnings"]))
+        return report
+
+    def failed(self, item: Item, error: BaseException) -> dict[str, Any]:
+        """Give an item that could not be measured a row that says why, and return its report."""
+        report = failure(replace(item, output=self._path), error)
+        self._rows.append(row_without(item.name, report["error"]))
+        return report
+
+    def written(self) -> dict[str, Any]:
+        """Write the page, and return its report, or that of the reason why it could not be written."""
+        wanted = self._work.wanted
+        verdict = verdict_of(self._rows, wanted.limit, self._unit, wanted.between)
+        place = {"input": str(self._path), "object": None, "frame": None, "output": str(self._path)}
+        try:
+            make_folder(self._path)
+            export_page(self._rows, self._path, verdict, wanted.between)
+        except Exception as error:
+            return {"status": "failed", **place, "kind": type(error).__name__, "error": str(error)}
+        figures = {"rows": len(self._rows), "places": sum(row.places for row in self._rows)}
+        return {"status": "done", **place, **figures, "verdict": verdict}
 
 
 RECORD = Thickness

@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, cast
+from dataclasses import replace
+from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints
 from ..axis.compute import Computation
-from ..axis.medial_axis import LevelValues, MedialAxis
+from ..axis.medial_axis import INNER, LevelValues, MedialAxis, without_samples
 from ..axis.polygon_triangles import axis_triangles, polygon_triangles
 from ..axis.structure import CREASE, Structure
 from ..axis.turning import with_facets_turned
@@ -22,22 +21,7 @@ from ..shape.shape import Shape
 from ..small_matrices import length_of
 from .solid_difference import PointDifference, difference_of_points
 
-_INNER = 1  # value of `_medial.Side`
 _SPACING = 1 / 400  # of the diagonal: between points on the solid; chosen: unseen
-
-
-@dataclass(frozen=True)
-class SphereMesh:
-    """The arrays that the compiled module takes, in its order."""
-
-    vertices: Floats
-    radius: Floats
-    triangles: Ints
-    edges: Ints
-
-    @property
-    def arrays(self) -> tuple[NDArray[Any], ...]:
-        return self.vertices, self.radius, self.triangles, self.edges
 
 
 def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> MedialAxis:
@@ -70,7 +54,7 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
         Less than one vertex is wanted, or the axis is not an inner one.
     NativeModuleError, OutOfMemoryError, Cancelled
     """
-    if (axis.side != _INNER).any():
+    if (axis.side != INNER).any():
         raise InvalidInputError(
             "Expected a medial axis of the inside, found one of another side; compute it with side Inner"
         )
@@ -113,18 +97,18 @@ def _sheets(axis: MedialAxis, vertices: int, progress: Progress | None) -> Media
     stays = row >= 0
     places = np.where(stays[:, None], axis.vertices[row], places)
     radius = np.where(stays, axis.radius[row], radius)
-    return _as_axis(places, radius, face_offsets, face_vertices, edges)
+    return without_samples(places, radius, face_offsets, face_vertices, edges)
 
 
 def _loose(axis: MedialAxis, vertices: int, progress: Progress | None) -> MedialAxis:
     """Collapse edges until so many vertices are left, or no edge can collapse."""
-    given = sphere_mesh(_single(axis)).arrays
+    given = sphere_mesh(_single(axis))
     with own_errors() as module:
-        small = SphereMesh(
-            *module.reduce_sphere_mesh(*given, vertices, progress=progress and progress.part())
+        places, radius, triangles, edges = module.reduce_sphere_mesh(
+            *given, vertices, progress=progress and progress.part()
         )
-    offsets = np.arange(0, 3 * len(small.triangles) + 1, 3, dtype=np.int32)
-    return _as_axis(small.vertices, small.radius, offsets, small.triangles.reshape(-1), small.edges)
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
+    return without_samples(places, radius, offsets, triangles.reshape(-1), edges)
 
 
 def _on_samples(axis: MedialAxis) -> MedialAxis:
@@ -148,9 +132,9 @@ def reduced(found: Computation, vertices: int, progress: Progress | None = None)
     return replace(found, axis=reduce_axis(found.axis, vertices, progress))
 
 
-def sphere_mesh(axis: MedialAxis) -> SphereMesh:
-    """Convert an axis to spheres with triangles and edges."""
-    return SphereMesh(
+def sphere_mesh(axis: MedialAxis) -> tuple[Floats, Floats, Ints, Ints]:
+    """Convert an axis to spheres with triangles and edges, as the compiled module takes them."""
+    return (
         np.ascontiguousarray(axis.vertices),
         np.ascontiguousarray(axis.radius),
         axis_triangles(axis),
@@ -190,29 +174,9 @@ def reduced_difference(
     def signed(queries: Floats) -> Floats:
         with own_errors() as module:
             part = progress and progress.part(0.5)
-            return np.asarray(module.solid_distances(queries, *mesh.arrays, progress=part))
+            return np.asarray(module.solid_distances(queries, *mesh, progress=part))
 
     with own_errors() as module:
         part = progress and progress.part(0.5)
-        points = module.solid_surface(*mesh.arrays, _SPACING * diagonal, progress=part)
+        points = module.solid_surface(*mesh, _SPACING * diagonal, progress=part)
     return difference_of_points(shape, np.asarray(points), signed, progress)
-
-
-def _as_axis(
-    vertices: Floats, radius: Floats, face_offsets: Ints, face_vertices: Ints, edges: Ints
-) -> MedialAxis:
-    count = len(face_offsets) - 1
-    always = np.full(count, np.inf)
-    return MedialAxis(
-        vertices=vertices,
-        radius=radius,
-        face_offsets=face_offsets,
-        face_vertices=face_vertices,
-        theta=always,
-        rho=always,
-        side=np.full(count, _INNER, np.int32),
-        generators=np.full((count, 2), -1, np.int32),
-        unbounded=0,
-        zero_area=0,
-        edges=edges,
-    )

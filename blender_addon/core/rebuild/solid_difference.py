@@ -22,33 +22,21 @@ _R2 = (0.7548776662466927, 0.5698402909980532)
 
 @dataclass(frozen=True)
 class SolidDifference:
-    """The difference of two solids.
+    """The difference of two solids."""
 
-    Parameters
-    ----------
-    mean, largest : float
-        The distance of a point of one surface to the other, as a share of the diagonal of the first solid: the mean by
-        area, and the largest. The larger value of both directions counts.
-    volume : float
-        The volume of the second solid as a multiple of the first.
-    """
-
+    # The distance of a point of one surface to the other, as a share of the diagonal of the first solid: the mean by
+    # area, and the largest. The larger value of both directions counts.
     mean: float
     largest: float
-    volume: float
+    volume: float  # The volume of the second solid as a multiple of the first
 
 
 @dataclass(frozen=True)
 class PointDifference:
-    """The difference between a surface and a solid.
+    """The difference between a surface and a solid."""
 
-    Parameters
-    ----------
-    mean, largest : float
-        Distances as shares of the diagonal of the surface: the mean distance of its points to the surface of the solid,
-        by area, and the largest distance in both directions.
-    """
-
+    # Distances as shares of the diagonal of the surface: the mean distance of its points to the surface of the solid,
+    # by area, and the largest distance in both directions
     mean: float
     largest: float
 

@@ -29,58 +29,33 @@ _TRIED = 24  # this many places are tried for the start of a limb, from the rim 
 
 @dataclass(frozen=True, eq=False)
 class Stubs:
-    """A stub is a part of a branch that has no bone of its own, within the ball of a fork; it follows another bone.
+    """A stub is a part of a branch that has no bone of its own, within the ball of a fork; it follows another bone."""
 
-    Parameters
-    ----------
-    branch : (s,) int32
-    along : (s, 2) float64
-        The stub lies between these shares of the length of the branch, the smaller first.
-    bone : (s,) int32
-    """
-
-    branch: Ints
+    branch: Ints  # (s,)
+    # (s, 2) The stub lies between these shares of the length of the branch, the smaller first
     along: Floats
-    bone: Ints
+    bone: Ints  # (s,)
 
 
 @dataclass(frozen=True, eq=False)
 class Bones:
-    """Bones form a tree for each connected part of a skeleton; parents come before their children.
+    """Bones form a tree for each connected part of a skeleton; parents come before their children."""
 
-    Parameters
-    ----------
-    head, tail : (n, 3) float64
-    head_radius, tail_radius : (n,) float64
-    up : (n, 3) float64
-        The third axis of each bone, of length 1 and at right angles to it. A limb bends about its first axis.
-    parent : (n,) int32
-        It is -1 for root bones.
-    connected : (n,) bool
-        The head is the tail of the parent.
-    branch : (n,) int32
-        The branch of the skeleton; it is -1 for a root bone that lies on none.
-    along : (n, 2) float64
-        The part of the branch that follows the bone lies between these shares of its length. They are those of head and
-        tail, but the first bone of a limb has also what lies just before its head.
-    chain : (n,) int32
-        Bones that go on into each other along one branch have the same number. Parents have lower numbers.
-    to_tip : (n,) bool
-        The chain ends in a tip.
-    stubs : Stubs
-    """
-
-    head: Floats
-    tail: Floats
-    head_radius: Floats
-    tail_radius: Floats
+    head: Floats  # (n, 3)
+    tail: Floats  # (n, 3)
+    head_radius: Floats  # (n,)
+    tail_radius: Floats  # (n,)
+    # (n, 3) The third axis of each bone, of length 1 and at right angles to it. A limb bends about its first axis.
     up: Floats
-    parent: Ints
-    connected: Flags
-    branch: Ints
+    parent: Ints  # (n,) It is -1 for root bones
+    connected: Flags  # (n,) The head is the tail of the parent
+    branch: Ints  # (n,) The branch of the skeleton; it is -1 for a root bone that lies on none
+    # (n, 2) The part of the branch that follows the bone lies between these shares of its length. They are those of
+    # head and tail, but the first bone of a limb has also what lies just before its head.
     along: Floats
+    # (n,) Bones that go on into each other along one branch have the same number. Parents have lower numbers.
     chain: Ints
-    to_tip: Flags
+    to_tip: Flags  # (n,) The chain ends in a tip
     stubs: Stubs
 
     @property
@@ -90,29 +65,16 @@ class Bones:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body is a connected part of a skeleton as a rig sees it.
-
-    Parameters
-    ----------
-    tree : list of Chain
-    sides : Sides
-    goes_on : list of int
-        The chain that continues from the end of each chain, or -1.
-    spine : int
-        The chain that continues from the root bone, or -1: all leave it to the side.
-    bones : list of list of int
-        The bones along each chain; there are none along a chain that is shorter than the balls on it. The root bone is
-        the first one along the spine.
-    root : int
-        The root bone.
-    """
+    """A body is a connected part of a skeleton as a rig sees it."""
 
     tree: list[Chain]
     sides: Sides
-    goes_on: list[int]
-    spine: int
+    goes_on: list[int]  # The chain that continues from the end of each chain, or -1
+    spine: int  # The chain that continues from the root bone, or -1: all leave it to the side
+    # The bones along each chain; there are none along a chain that is shorter than the balls on it. The root bone is
+    # the first one along the spine.
     bones: list[list[int]]
-    root: int
+    root: int  # The root bone
 
 
 def bones_of(
@@ -120,14 +82,8 @@ def bones_of(
 ) -> tuple[Bones, list[Body]]:
     """Return the bones of a skeleton, and its connected parts, the largest first.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Points without a branch get no bone.
-    per_limb : int
-        The number of bones along each limb, where there is room for them; 0 for as many as it needs.
-    flats : (b, 3) float64, optional
-        The normal of the sheet in each branch, or 0.
+    Points without a branch get no bone. `per_limb` bones are along each limb, where there is room for them; 0 for as
+    many as it needs. The flats are (b, 3): the normal of the sheet in each branch, or 0.
     """
     maker = _Maker(per_limb, np.zeros((skeleton.count, 3)) if flats is None else flats)
     bodies = [maker.add(tree) for tree in trees_of(skeleton)]

@@ -23,14 +23,8 @@ _STEPS, _MOST_STEPS = 48, 192  # joints are looked for at this many; 2, 3, 4, 6 
 def joints_of(chain: Chain, begin: float, count: int = 0) -> Floats:
     """Return the joints between bones, as lengths from the start of the chain, with both ends, ascending.
 
-    Parameters
-    ----------
-    chain : Chain
-    begin : float
-        The first bone starts at this length.
-    count : int
-        The number of bones, or as many as there is room for. If it is 0, it is the least with which no bone is too
-        long or deviates by more than half the radius.
+    The first bone starts at the length `begin`. The count is the number of bones, or as many as there is room for. If
+    it is 0, it is the least with which no bone is too long or deviates by more than half the radius.
     """
     mean = float(chain.radius.mean())
     steps = _STEPS * int(np.clip(np.ceil((chain.length - begin) / (_STEPS * mean)), 1, 4))

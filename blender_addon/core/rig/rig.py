@@ -25,33 +25,16 @@ from .weights import axis_weights
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """A rig has bones, and weights by which vertices follow them.
-
-    Parameters
-    ----------
-    made_of : Skeletonization
-    bones : Bones
-    names : list of str
-        The names of the bones.
-    limbs : list of list of int
-        The bones of each chain that ends in a tip, from its start.
-    frame : (4, 4) float64
-        The plane between the sides of the body is that across X in this frame, a rotation and a translation.
-    bone : (v, 4) int32
-        Up to four bones of each vertex of the shape.
-    weight : (v, 4) float64
-        The weights of a vertex add up to 1, and the largest is first.
-    warnings : tuple of str
-    seconds : float
-    """
+    """A rig has bones, and weights by which vertices follow them."""
 
     made_of: Skeletonization
     bones: Bones
-    names: list[str]
-    limbs: list[list[int]]
+    names: list[str]  # The names of the bones
+    limbs: list[list[int]]  # The bones of each chain that ends in a tip, from its start
+    # (4, 4) The plane between the sides of the body is that across X in this frame, a rotation and a translation
     frame: Floats
-    bone: Ints
-    weight: Floats
+    bone: Ints  # (v, 4) Up to four bones of each vertex of the shape
+    weight: Floats  # (v, 4) The weights of a vertex add up to 1, and the largest is first
     warnings: tuple[str, ...]
     seconds: float
 

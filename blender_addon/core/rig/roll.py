@@ -24,17 +24,9 @@ _ALONG = 0.1  # the sine of the angle of a bone that is parallel to an axis; cho
 
 
 def ups_of(chain: Chain, joints: Floats, sides: Sides, within: bool, flat: Floats) -> Floats:
-    """Return the third axis of each bone along a chain, (n, 3).
+    """Return the third axis of each bone along a chain, (n, 3), given its (n + 1, 3) joints.
 
-    Parameters
-    ----------
-    chain : Chain
-    joints : (n + 1, 3) float64
-    sides : Sides
-    within : bool
-        The chain lies between the sides.
-    flat : (3,) float64
-        The normal of the sheet in the chain, or 0.
+    A chain within lies between the sides; `flat` is the normal of the sheet in it, (3,), or 0.
     """
     along = _unit(np.diff(joints, axis=0))
     hinge = sides.normal if within else _hinge(chain)

@@ -28,27 +28,14 @@ _TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """A body has two sides, or none that the shape shows.
+    """A body has two sides, or none that the shape shows."""
 
-    Parameters
-    ----------
-    normal : (3,) float64
-        It points to the left side: its largest component is positive, so that left is positive X, as in Blender.
-    origin : (3,) float64
-        The plane goes through this point.
-    partner : (c,) int64
-        The chain that is the mirror image of each chain, or -1.
-    within : (c,) bool
-        The chain lies in the plane.
-    found : bool
-        Whether the shape shows the plane; if not, it has neither pairs nor chains within.
-    """
-
+    # (3,) It points to the left side: its largest component is positive, so that left is positive X, as in Blender
     normal: Floats
-    origin: Floats
-    partner: Longs
-    within: Flags
-    found: bool
+    origin: Floats  # (3,) The plane goes through this point
+    partner: Longs  # (c,) The chain that is the mirror image of each chain, or -1
+    within: Flags  # (c,) The chain lies in the plane
+    found: bool  # Whether the shape shows the plane; if not, it has neither pairs nor chains within
 
     def is_left(self, chain: Chain) -> bool:
         """Return whether a chain that has a partner is the left one of the two."""

@@ -9,47 +9,33 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..arrays import Floats
+from ..curves.smooth_line import at_marks, marks_of
 from ..skeleton.skeleton import Skeleton
-from .pelvis import pelvis_of
 
 _FAR = 4.0  # chains are compared up to this many radii from their fork; chosen: unseen
 _SAMPLES = 65  # at this many places
+_AS_THICK = 0.9  # a ball is nearly as thick as the thickest if it has this share of its radius; chosen: unseen
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """A chain is a branch, or half of one that closes a loop, from its start towards the tips.
-
-    Parameters
-    ----------
-    branch : int
-    points : (n, 3) float64
-    radius : (n,) float64
-    along : (n,) float64
-        The points lie at these shares of the length of the branch; they descend where the chain runs against it.
-    parent : int
-        The chain at whose end this one starts; -1 at a root. Parents come before their children.
-    from_root : float
-        The length of the way from the root to the start.
-    to_tip : bool
-        The chain ends in a tip.
-    rim : float
-        After this length the chain has left the balls of its fork, and of the other chains there, for good.
-    """
+    """A chain is a branch, or half of one that closes a loop, from its start towards the tips."""
 
     branch: int
-    points: Floats
-    radius: Floats
+    points: Floats  # (n, 3)
+    radius: Floats  # (n,)
+    # (n,) The points lie at these shares of the length of the branch; they descend where the chain runs against it
     along: Floats
+    # The chain at whose end this one starts; -1 at a root. Parents come before their children.
     parent: int
-    from_root: float
-    to_tip: bool
+    from_root: float  # The length of the way from the root to the start
+    to_tip: bool  # The chain ends in a tip
+    # After this length the chain has left the balls of its fork, and of the other chains there, for good
     rim: float = 0.0
     marks: Floats = field(init=False)
 
     def __post_init__(self) -> None:
-        steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
-        object.__setattr__(self, "marks", np.concatenate(([0.0], np.cumsum(steps))))
+        object.__setattr__(self, "marks", marks_of(self.points))
 
     @property
     def length(self) -> float:
@@ -63,14 +49,9 @@ class Chain:
 
     def at(self, marks: Floats) -> tuple[Floats, Floats, Floats]:
         """Return points, radii and shares of the branch at some lengths from the start."""
-        points = np.column_stack(
-            [np.interp(marks, self.marks, self.points[:, axis]) for axis in range(3)]
-        )
-        return (
-            points,
-            np.interp(marks, self.marks, self.radius),
-            np.interp(marks, self.marks, self.along),
-        )
+        table = np.column_stack((self.points, self.radius, self.along))
+        found = at_marks(marks, self.marks, table)
+        return found[:, :3].copy(), found[:, 3].copy(), found[:, 4].copy()
 
 
 def trees_of(skeleton: Skeleton) -> list[list[Chain]]:
@@ -123,12 +104,12 @@ def _tree(
                 other = start if turned else end
                 if through.get(other) == branch and start != end:
                     arrives[other] = len(found)
-                    found.append(
-                        _placed(chain, arrives[node], away[node], bool(degree[other] == 1))
-                    )
+                    is_tip = bool(degree[other] == 1)
                 else:
                     half = (away[other] + chain.length - away[node]) / 2
-                    found.append(_placed(_until(chain, half), arrives[node], away[node], False))
+                    chain, is_tip = _until(chain, half), False
+                place = {"parent": arrives[node], "from_root": away[node], "to_tip": is_tip}
+                found.append(replace(chain, **place))
     return [replace(chain, rim=_rim(found, number)) for number, chain in enumerate(found)]
 
 
@@ -168,28 +149,17 @@ def _chain(skeleton: Skeleton, branch: int) -> Chain:
 
 
 def _turned(chain: Chain) -> Chain:
-    return Chain(
-        chain.branch, chain.points[::-1], chain.radius[::-1], chain.along[::-1], -1, 0.0, False
-    )
-
-
-def _placed(chain: Chain, parent: int, from_root: float, to_tip: bool) -> Chain:
-    return Chain(chain.branch, chain.points, chain.radius, chain.along, parent, from_root, to_tip)
+    whole = chain.points[::-1], chain.radius[::-1], chain.along[::-1]
+    return Chain(chain.branch, *whole, -1, 0.0, False)
 
 
 def _until(chain: Chain, length: float) -> Chain:
     """Return the first part of a chain."""
     kept = max(1, int(np.searchsorted(chain.marks, length)))
-    point, radius, along = chain.at(np.array([length]))
-    return Chain(
-        chain.branch,
-        np.concatenate((chain.points[:kept], point)),
-        np.concatenate((chain.radius[:kept], radius)),
-        np.concatenate((chain.along[:kept], along)),
-        -1,
-        0.0,
-        False,
-    )
+    first = chain.points[:kept], chain.radius[:kept], chain.along[:kept]
+    last = chain.at(np.array([length]))
+    points, radius, along = (np.concatenate(pair) for pair in zip(first, last, strict=True))
+    return Chain(chain.branch, points, radius, along, -1, 0.0, False)
 
 
 def _nearest_first(
@@ -212,3 +182,31 @@ def _nearest_first(
                 queue, (so_far + length[leaving], end if start == node else start, leaving)
             )
     return away, through
+
+
+def pelvis_of(
+    skeleton: Skeleton, nodes: list[int], at: dict[int, list[int]], ends: list[tuple[int, int]]
+) -> int:
+    """Return the pelvis of a connected part: the node, of ascending `nodes`, from which all bones go out.
+
+    It is the fork with the thickest ball. Of forks that are nearly as thick, it is the one with the longest limb, for
+    legs and tails are longer than arms. A skeleton without a fork starts at its thicker end. `at` has the branches at
+    each node, `ends` the nodes at the ends of each branch.
+    """
+    degree = skeleton.degree
+    forks = [node for node in nodes if degree[node] > 2] or nodes
+    radius = skeleton.radius[forks]
+    thick = [node for node in forks if skeleton.radius[node] >= _AS_THICK * radius.max()]
+    limbs = [
+        max(
+            (_length(skeleton, b) for b in at[node] if (degree[list(ends[b])] == 1).any()),
+            default=0.0,
+        )
+        for node in thick
+    ]
+    return thick[int(np.argmax(limbs))]
+
+
+def _length(skeleton: Skeleton, branch: int) -> float:
+    steps = np.diff(skeleton.points[skeleton.branches[branch]], axis=0)
+    return float(np.linalg.norm(steps, axis=1).sum())

@@ -24,23 +24,9 @@ _CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved to this, in at most so man
 def axis_weights(
     bones: Bones, places: Places, vertices: Floats, edges: Ints
 ) -> tuple[Ints, Floats]:
-    """Compute the weights of vertices.
+    """Compute the (v, 4) bones and weights of (v, 3) vertices at places on branches, with (e, 2) edges between them.
 
-    Parameters
-    ----------
-    bones : Bones
-        There is at least one.
-    places : Places
-        The places of the vertices on the branches.
-    vertices : (v, 3) float64
-    edges : (e, 2) int32
-        The edges between the vertices.
-
-    Returns
-    -------
-    bone : (v, 4) int32
-    weight : (v, 4) float64
-        The weights of a vertex are not negative and add up to 1, and the largest is first.
+    The weights of a vertex are not negative and add up to 1, and the largest is first. There is at least one bone.
     """
     weight = np.zeros((len(vertices), bones.count))
     chain = _along_branches(weight, bones, places)

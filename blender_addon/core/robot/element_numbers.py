@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ReadError
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..small_matrices import times
 from .xml_spans import Element
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ReadError
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..small_matrices import dot, length_of
 from .element_numbers import HALF_PI, numbers_of, turn_of
 from .primitive_meshes import Mesh, ball_mesh, box_mesh, cylinder_mesh

@@ -12,8 +12,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..small_matrices import times
 from .element_numbers import numbers_of
 from .geom import SHAPE, SIZES, TURNS, frame_of, matrix_of, primitive_of
-from .mesh_file import mesh_of_file
-from .primitive_meshes import Mesh
+from .primitive_meshes import Mesh, mesh_of_file
 from .xml_spans import Element
 
 Attributes = dict[str, str]

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boxes, cylinders, balls and capsules as closed meshes that hold the solid, so that what holds the mesh holds it."""
+"""Meshes of a robot: those of files, and boxes, cylinders, balls and capsules, whose meshes hold the solid."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Floats, Ints, Longs
-from ..portable_cosine import cosine
+from ..files.read_shape import read_shape
+from ..machine.memory_limit import MemoryLimit
+from ..portable_angle import cosine
 from ..shape.triangles import unit_normals
 from ..small_matrices import dot
 
@@ -65,3 +69,15 @@ def _turned(profile: list[tuple[float, float]]) -> Mesh:
 
 def _triangles(quads: Longs) -> Ints:
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+
+
+def mesh_of_file(
+    path: Path,
+    scale: Floats,
+    limit: MemoryLimit | None,
+    moved: Callable[[Floats], Floats] = lambda points: points,
+) -> Mesh:
+    """Return the mesh of a file, moved and then scaled along the axes; a mirrored one keeps its faces outward."""
+    found, _ = read_shape(path, limit)
+    triangles = found.triangles if scale.prod() > 0.0 else found.triangles[:, ::-1]
+    return moved(found.points) * scale, np.ascontiguousarray(triangles)

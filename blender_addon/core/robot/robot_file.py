@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints
 from ..cover.ball_cover import Balls
 from ..cover.robot_links import write_collisions, write_geoms
-from ..cover.write_balls import check_robot
 from ..errors import MedialAxisError, ReadError
 from ..files.text import open_file
 from ..machine.memory_limit import MemoryLimit
@@ -30,30 +29,18 @@ _FORMATS: dict[str, type[Urdf] | type[Mjcf]] = {"robot": Urdf, "mujoco": Mjcf}
 
 
 class LinkGeometry(NamedTuple):
-    """The collision geometry of a link, in the link's frame.
-
-    Parameters
-    ----------
-    name : str
-    points : (n, 3) float64
-    triangles : (m, 3) int32
-    spans : tuple of (int, int)
-        The first byte of each element that it comes from, and the one behind its last.
-    kinds : tuple of str
-        The shapes that it consists of, such as "sphere", in the order of the alphabet.
-    kept : tuple of (str, str)
-        The attributes of elements in their place: the name is that of the first, the mass that of all.
-    problem : str
-        Why it cannot be read, "" where it can.
-    """
+    """The collision geometry of a link, in the link's frame."""
 
     name: str
-    points: Floats
-    triangles: Ints
+    points: Floats  # (n, 3)
+    triangles: Ints  # (m, 3)
+    # The first byte of each element that it comes from, and the one behind its last
     spans: tuple[tuple[int, int], ...]
+    # The shapes that it consists of, such as "sphere", in the order of the alphabet
     kinds: tuple[str, ...] = ()
+    # The attributes of elements in their place: the name is that of the first, the mass that of all
     kept: tuple[tuple[str, str], ...] = ()
-    problem: str = ""
+    problem: str = ""  # Why it cannot be read, "" where it can
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +112,6 @@ def _geometry_of(
 
 def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:
     """Return an element for each shape with attributes that it has not; the first has the name, all share the mass."""
-    check_robot(balls)
     stream = BytesIO()
     (write_geoms if tag == "geom" else write_collisions)(balls, stream)
     lines = [line.strip() for line in stream.getvalue().decode("ascii").splitlines()]

@@ -10,8 +10,7 @@ from ..errors import ReadError
 from ..machine.memory_limit import MemoryLimit
 from ..small_matrices import times
 from .element_numbers import numbers_of, turn_of
-from .mesh_file import mesh_of_file
-from .primitive_meshes import Mesh, ball_mesh, box_mesh, cylinder_mesh
+from .primitive_meshes import Mesh, ball_mesh, box_mesh, cylinder_mesh, mesh_of_file
 from .xml_spans import Element
 
 

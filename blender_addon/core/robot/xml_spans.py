@@ -17,19 +17,11 @@ _QUOTED_OR_END = re.compile(rb"\"[^\"]*\"|'[^']*'|>")
 
 @dataclass
 class Element:
-    """An element.
-
-    Parameters
-    ----------
-    tag : str
-    attributes : dict of str
-    start, end : int
-        Its first byte, and the one behind its last.
-    children : list of Element
-    """
+    """An element."""
 
     tag: str
     attributes: dict[str, str]
+    # Its first byte, and the one behind its last
     start: int
     end: int = 0
     children: list[Element] = field(default_factory=list)

@@ -24,20 +24,12 @@ _LARGEST = 3.0  # chosen: unseen
 
 @dataclass(frozen=True)
 class Sides:
-    """The source that decides between inside and outside, and the reason, for people.
+    """The source that decides between inside and outside, and the reason, for people."""
 
-    Parameters
-    ----------
-    source : SidesFrom
-        AUTOMATIC is left only where points alone must decide: their analysis chooses (`sides.decided`).
-    reason : str
-    is_chosen : bool
-        The user wanted this source.
-    """
-
+    # AUTOMATIC is left only where points alone must decide: their analysis chooses (`sides.decided`)
     source: SidesFrom
     reason: str
-    is_chosen: bool = False
+    is_chosen: bool = False  # The user wanted this source
 
     def __str__(self) -> str:
         return f"Inside from {OPTIONS['sides'].items[self.source][0]}: {self.reason}"
@@ -45,96 +37,56 @@ class Sides:
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Points to analyse, and the properties of the surface at each of them.
+    """Points to analyse, and the properties of the surface at each of them."""
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-    kinds : (n,) int32 or None
-        Values of `_medial.SampleKind`; None where the points are vertices.
-    normals : (n, 3) float64 or None
-        Outward normals of the surface at the points.
-    spacing : float
-        The distance of neighbours, once analysed that of the first pass; 0.0 where the points are vertices.
-    buried : int
-        The number of samples that were left out because the surface there bounds nothing.
-    closing : int
-        The number of points that close openings of the surface; they come last.
-    rows : (n,) int32 or None
-        The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
-    faces : (n,) int32 or None
-        The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
-    apart : (n,) float64 or None
-        The wanted distance of neighbours at each sample; None where the points are vertices.
-    partners : (n,) int32 or None
-        The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs.
-    offset : float
-        How far outside of the surface that is meant the samples lie; radii are less by this.
-    radius : (k,) float64 or None
-        The radius of the disc of each sample of a face; None once they are analysed, like `edges` and `places`.
-    edges : (m, 3) float64 or None
-        The points on edges and corners of the solid, where the feature size is 0.
-    places : Places or None
-        The flat faces below the samples, where opposite walls are looked for.
-    """
-
-    points: Floats
+    points: Floats  # (n, 3)
+    # (n,) Values of `_medial.SampleKind`; None where the points are vertices
     kinds: Ints | None = None
-    normals: Floats | None = None
+    normals: Floats | None = None  # (n, 3) Outward normals of the surface at the points
+    # The distance of neighbours, once analysed that of the first pass; 0.0 where the points are vertices
     spacing: float = 0.0
+    # The number of samples that were left out because the surface there bounds nothing
     buried: int = 0
-    closing: int = 0
+    closing: int = 0  # The number of points that close openings of the surface; they come last
+    # (n,) The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces
     rows: Ints | None = None
+    # (n,) The triangle of the shape on which each sample lies; -1 for a sample that closes an opening
     faces: Ints | None = None
+    # (n,) The wanted distance of neighbours at each sample; None where the points are vertices
     apart: Floats | None = None
+    # (n,) The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs
     partners: Ints | None = None
+    # How far outside of the surface that is meant the samples lie; radii are less by this
     offset: float = 0.0
+    # (k,) The radius of the disc of each sample of a face; None once they are analysed, like `edges` and `places`
     radius: Floats | None = None
+    # (m, 3) The points on edges and corners of the solid, where the feature size is 0
     edges: Floats | None = None
+    # The flat faces below the samples, where opposite walls are looked for
     places: Places | None = None
 
 
 @dataclass(frozen=True)
 class Kept:
-    """A name and hierarchies, which the cache keeps beside the results of an analysis.
+    """A name and hierarchies, which the cache keeps beside the results of an analysis."""
 
-    Parameters
-    ----------
-    key : str
-        The name in the cache.
-    levels : Levels
-        The hierarchy, once a form has needed it.
-    """
-
-    key: str = ""
-    levels: Levels = field(default_factory=Levels)
+    key: str = ""  # The name in the cache
+    levels: Levels = field(default_factory=Levels)  # The hierarchy, once a form has needed it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Analysed(Samples):
-    """Samples and their analysis.
+    """Samples and their analysis."""
 
-    Parameters
-    ----------
-    analysis : _medial.MedialAnalysis
-    density : Density
-    walls : Walls or None
-        How thin the shape is there; None where there are no faces to measure.
-    by_faces : tuple of int or None
-        Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible.
-    solid : SolidFaces or None
-        The faces that bound the solid, if they decide what is inside.
-    patches : (n, 2) int32 or None
-        The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None where
-        there are no faces.
-    kept : Kept
-    """
-
-    analysis: Any
+    analysis: Any  # _medial.MedialAnalysis
     density: Density
+    # How thin the shape is there; None where there are no faces to measure
     walls: Walls | None = None
+    # Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible
     by_faces: tuple[int, int, int] | None = None
-    solid: SolidFaces | None = None
+    solid: SolidFaces | None = None  # The faces that bound the solid, if they decide what is inside
+    # (n, 2) The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None
+    # where there are no faces
     patches: Ints | None = None
     kept: Kept = field(default_factory=Kept)
 

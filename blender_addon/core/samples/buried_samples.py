@@ -36,15 +36,8 @@ def find_bare(
 
     Samples in gaps too narrow for them are not taken either, but do not count.
 
-    Parameters
-    ----------
-    shape : Shape
-    feet, normals : (n, 3) float64
-        As `on_flat_faces` returns them.
-    spacing : float
-        The distance of neighbours.
-    gaps : bool
-        Samples are in pairs across gaps, so none is too narrow.
+    The feet and normals are as `on_flat_faces` returns them, the spacing is the distance of neighbours. With `gaps`
+    samples are in pairs across gaps, so none is too narrow.
     """
     # Faces that cannot be turned outward, for more edges would be open then, may bound a negative volume: all samples
     # would be left out.
@@ -76,11 +69,7 @@ def _outside_clefts(
 def bounding_share(shape: Shape, spacing: float) -> float:
     """Return the share of the area of the faces that bounds the solid.
 
-    Parameters
-    ----------
-    shape : Shape
-    spacing : float
-        The distance of neighbouring samples, which determines how far from the faces their sides are tested.
+    The spacing of samples determines how far from the faces their sides are tested.
     """
     areas, buried, _ = sides_of_faces(shape, some_of(len(shape.triangles)), spacing)
     return 1.0 - float(areas[buried].sum() / areas.sum())
@@ -91,11 +80,7 @@ def outer_share(shape: Shape, spacing: float) -> float:
 
     Faces in the solid, as where parts overlap, have the solid at both sides; those of a sheet have nothing at both.
 
-    Parameters
-    ----------
-    shape : Shape
-    spacing : float
-        As in `bounding_share`.
+    The spacing is as in `bounding_share`.
     """
     areas, buried, inside = sides_of_faces(shape, some_of(len(shape.triangles)), spacing)
     outer = float(areas[~inside].sum())
@@ -148,14 +133,8 @@ def on_flat_faces(shape: Shape, found: Any, faces: Ints, spacing: float) -> tupl
     moved towards the middle of the face, by a tenth of the spacing or of the distance to the middle: on the edge itself
     the normal of one face may run along the neighbouring face.
 
-    Parameters
-    ----------
-    shape : Shape
-    found : _medial.SurfaceSamples
-    faces : (n,) int32
-        The triangle of the shape on which each sample lies.
-    spacing : float
-        The distance of neighbours.
+    The samples are `_medial.SurfaceSamples`, each on one of (n,) triangles of the shape; the spacing is the distance of
+    neighbours.
     """
     corners = shape.points[shape.triangles[faces]]
     points = dot(corners.swapaxes(1, 2), found.barycentric[:, None])

@@ -16,40 +16,20 @@ from .scan import Scan
 
 @dataclass(frozen=True, eq=False)
 class ChosenSamples:
-    """The samples that are used, and why these.
-
-    Parameters
-    ----------
-    samples : Analysed
-    sampling : SamplingMode
-        How the samples were made; never AUTOMATIC.
-    reason : str
-        A sentence for people.
-    sides : Sides
-        The source that decided between inside and outside, and why.
-    gaps : int
-        The number of edges at which the faces are open.
-    thinned : str
-        A sentence that explains why there are fewer samples than the settings ask for; or empty.
-    sparse : bool
-        The faces were sampled because their vertices are too few.
-    differs : bool
-        The topology of the samples differs from that of the faces, although more samples were taken to change that.
-    worst : WorstDoubt or None
-        Where these samples are most in doubt.
-    scan : Scan or None
-        What was measured of points without faces, and done to them; None where there are faces.
-    """
+    """The samples that are used, and why these."""
 
     samples: Analysed
-    sampling: SamplingMode
-    reason: str
-    sides: Sides
-    gaps: int
+    sampling: SamplingMode  # How the samples were made; never AUTOMATIC
+    reason: str  # A sentence for people
+    sides: Sides  # The source that decided between inside and outside, and why
+    gaps: int  # The number of edges at which the faces are open
+    # A sentence that explains why there are fewer samples than the settings ask for; or empty
     thinned: str = ""
-    sparse: bool = False
+    sparse: bool = False  # The faces were sampled because their vertices are too few
+    # The topology of the samples differs from that of the faces, although more samples were taken to change that
     differs: bool = False
-    worst: WorstDoubt | None = None
+    worst: WorstDoubt | None = None  # Where these samples are most in doubt
+    # The measures of points without faces, and what was done to them; None where there are faces
     scan: Scan | None = None
 
     @property
@@ -79,26 +59,13 @@ class OfChosenSamples:
 
 @dataclass(frozen=True, eq=False)
 class Begun:
-    """A computation whose samples are analysed.
+    """A computation whose samples are analysed."""
 
-    Parameters
-    ----------
-    shape : Shape
-        With faces that look outward.
-    chosen : ChosenSamples
-    progress : Progress
-        For the rest of the work.
-    start : float
-        The time of `time.perf_counter` at which the computation began.
-    given : Shape
-        The shape before its sheets were left out, or before it was wrapped.
-    """
-
-    shape: Shape
+    shape: Shape  # With faces that look outward
     chosen: ChosenSamples
-    progress: Progress
-    start: float
-    given: Shape
+    progress: Progress  # For the rest of the work
+    start: float  # The time of `time.perf_counter` at which the computation began
+    given: Shape  # The shape before its sheets were left out, or before it was wrapped
 
     @property
     def seconds(self) -> float:

@@ -16,18 +16,11 @@ from .sides import check_not_a_sheet, resolve_sides, resolve_sides_of_samples
 
 @dataclass(frozen=True)
 class Effort:
-    """The effort that a choice of Sampling allows.
+    """The effort that a choice of Sampling allows."""
 
-    Parameters
-    ----------
-    passes : int
-        The largest number of times that the faces are sampled.
-    at_edges, elsewhere, walls : float
-        The smallest spacing at sharp edges, elsewhere, and between walls where that much is needed to see the axis,
-        as shares of the first pass's spacing.
-    """
-
-    passes: int
+    passes: int  # The largest number of times that the faces are sampled
+    # The smallest spacing at sharp edges, elsewhere, and between walls where that much is needed to see the axis, as
+    # shares of the first pass's spacing
     at_edges: float
     elsewhere: float
     walls: float
@@ -46,42 +39,20 @@ _EFFORT = {
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A decision about the samples of an input.
-
-    Parameters
-    ----------
-    given : Input
-    sides : Sides
-        The source that will decide between inside and outside.
-    why : str
-        Why the vertices, or samples of the faces.
-    of_faces : bool
-        Samples of the faces, and not the vertices.
-    first : Amount
-    effort : Effort
-    has_sphere : bool
-        A sphere of further points surrounds the samples, which gives every sample an outer pole.
-    closes_openings : bool
-        Samples close the openings of the faces.
-    compares : bool
-        Automatic sees to the topology, for a level is wanted.
-    is_trial : bool
-        Vertices that do not show the shape give way to samples of its faces.
-    is_sparse : bool
-        The faces are sampled because their vertices are too few.
-    """
+    """A decision about the samples of an input."""
 
     given: Input
-    sides: Sides
-    why: str
-    of_faces: bool
+    sides: Sides  # The source that will decide between inside and outside
+    why: str  # Why the vertices, or samples of the faces
+    of_faces: bool  # Samples of the faces, and not the vertices
     first: Amount
     effort: Effort
+    # A sphere of further points surrounds the samples, which gives every sample an outer pole
     has_sphere: bool
-    closes_openings: bool
-    compares: bool
-    is_trial: bool = False
-    is_sparse: bool = False
+    closes_openings: bool  # Samples close the openings of the faces
+    compares: bool  # Automatic sees to the topology, for a level is wanted
+    is_trial: bool = False  # Vertices that do not show the shape give way to samples of its faces
+    is_sparse: bool = False  # The faces are sampled because their vertices are too few
 
 
 def decide(given: Input) -> Plan:

@@ -33,32 +33,16 @@ _APART = 0.05  # the smallest distance between them, as a share of the diagonal;
 
 @dataclass(frozen=True, eq=False)
 class Density:
-    """Estimates for each of the samples that were measured, in the order of `_medial.MedialAnalysis.samples`.
+    """Estimates for each of the samples that were measured, in the order of `_medial.MedialAnalysis.samples`."""
 
-    Parameters
-    ----------
-    points : (k, 3) float64
-    spacing : (k,) float64
-        The radius of the hole round the sample.
-    feature_size : (k,) float64
-        The distance to the medial axis; infinite where none was found.
-    edges : (m, 3) float64
-        The samples of sharp edges.
-    finest : float
-        The smallest spacing at sharp edges, where the feature size is 0.
-    limit : float
-        The largest epsilon that is dense enough.
-    paired : (k,) bool, optional
-        Samples with a partner on the opposite wall, between which the axis is right whatever the spacing. Their
-        epsilon counts as 0.
-    """
-
-    points: Floats
-    spacing: Floats
-    feature_size: Floats
-    edges: Floats
-    finest: float
-    limit: float
+    points: Floats  # (k, 3)
+    spacing: Floats  # (k,) The radius of the hole round the sample
+    feature_size: Floats  # (k,) The distance to the medial axis; infinite where none was found
+    edges: Floats  # (m, 3) The samples of sharp edges
+    finest: float  # The smallest spacing at sharp edges, where the feature size is 0
+    limit: float  # The largest epsilon that is dense enough
+    # (k,) Samples with a partner on the opposite wall, between which the axis is right whatever the spacing. Their
+    # epsilon counts as 0.
     paired: Flags | None = None
 
     @cached_property

@@ -25,20 +25,11 @@ _AROUND = 4.0  # doubts within this number of spacings belong together; chosen: 
 
 @dataclass(frozen=True, eq=False)
 class Topology:
-    """The topology that samples show.
+    """The topology that samples show."""
 
-    Parameters
-    ----------
-    betti : tuple of int
-        Pieces, loops and cavities of the solid.
-    places : (k, 3) float64
-        Places of doubt, if the numbers differ from those of the faces.
-    gaps : (k,) float64
-    """
-
-    betti: tuple[int, int, int]
-    places: Floats
-    gaps: Floats
+    betti: tuple[int, int, int]  # Pieces, loops and cavities of the solid
+    places: Floats  # (k, 3) Places of doubt, if the numbers differ from those of the faces
+    gaps: Floats  # (k,)
 
 
 def no_doubts() -> tuple[Floats, Floats]:
@@ -92,13 +83,7 @@ def words_of_place(place: Iterable[float]) -> str:
 def worst_doubt(shape: Shape, samples: Analysed, places: Floats) -> WorstDoubt | None:
     """Return the doubt with the most others within some spacings, the first of equal ones; None if there is none.
 
-    Parameters
-    ----------
-    shape : Shape
-    samples : Analysed
-        Samples of faces.
-    places : (k, 3) float64
-        As `_medial.MedialAnalysis.doubts` returns them.
+    The samples are those of faces, the (k, 3) places as `_medial.MedialAnalysis.doubts` returns them.
     """
     if not len(places):
         return None

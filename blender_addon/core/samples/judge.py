@@ -34,19 +34,11 @@ _WORSE, _MANY, _STALLED = 10, 100, 2
 
 @dataclass(frozen=True, eq=False)
 class Pass:
-    """Analysed samples, and how their topology compares with that of the faces.
-
-    Parameters
-    ----------
-    amount : Amount
-    samples : Analysed
-    topology : Topology or None
-        None where it was not compared.
-    """
+    """Analysed samples, and how their topology compares with that of the faces."""
 
     amount: Amount
     samples: Analysed
-    topology: Topology | None = None
+    topology: Topology | None = None  # None where it was not compared
 
     @property
     def differences(self) -> int:
@@ -58,19 +50,11 @@ class Pass:
 
 @dataclass(frozen=True, eq=False)
 class Again:
-    """Another pass.
-
-    Parameters
-    ----------
-    plan : Plan
-    amount : Amount
-    passes : tuple of Pass
-        Those before, of the same plan.
-    """
+    """Another pass."""
 
     plan: Plan
     amount: Amount
-    passes: tuple[Pass, ...] = ()
+    passes: tuple[Pass, ...] = ()  # The passes before, of the same plan
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,14 +174,7 @@ def _best_of(passes: Sequence[Pass]) -> tuple[Pass, int]:
 
 
 def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
-    """Return the amount of the next pass with pairs; None where none is needed, or none would help.
-
-    Parameters
-    ----------
-    plan : Plan
-    compared : sequence of Pass
-        As `trials` returns them.
-    """
+    """Return the amount of the next pass with pairs, given `trials`; None where none is needed or would help."""
     start, *tried = compared
     if not tried:
         assert start.topology is not None

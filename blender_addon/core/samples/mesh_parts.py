@@ -35,57 +35,32 @@ class Place(IntEnum):
 
 @dataclass(frozen=True)
 class PartCounts:
-    """A connected part of the faces, with its number from 1, in the order of the first faces of all parts.
-
-    Parameters
-    ----------
-    part : int
-    faces : int
-    turned : int
-        The number of its faces that were read the other way round.
-    open : bool
-    place : str
-        `apart`, `touching`, `within` (another part), `overlapping` or `sheet` (without thickness).
-    """
+    """A connected part of the faces, with its number from 1, in the order of the first faces of all parts."""
 
     part: int
     faces: int
-    turned: int
+    turned: int  # The number of its faces that were read the other way round
     open: bool
+    # `apart`, `touching`, `within` (another part), `overlapping` or `sheet` (without thickness)
     place: str
 
 
 @dataclass(frozen=True)
 class MeshCounts:
-    """The numbers of faces, of connected parts, and of parts of a kind.
-
-    Parameters
-    ----------
-    faces : int
-    parts : int
-    open : int
-    turned : int
-        Parts with faces that were read the other way round.
-    overlapping : int
-        Parts that share some of their volume with others; together they are one solid.
-    within, touching, apart : int
-        Parts that lie inside another one; that only touch others; that do neither.
-    sheets : int
-        Parts without thickness.
-    table : tuple of PartCounts
-        The first parts, at most `MOST_ROWS`; empty for one part.
-    """
+    """The numbers of faces, of connected parts, and of parts of a kind."""
 
     faces: int
     parts: int
     open: int = 0
-    turned: int = 0
+    turned: int = 0  # Parts with faces that were read the other way round
+    # Parts that share some of their volume with others; together they are one solid
     overlapping: int = 0
+    # Parts that lie inside another one; that only touch others; that do neither
     within: int = 0
     touching: int = 0
     apart: int = 0
-    sheets: int = 0
-    table: tuple[PartCounts, ...] = ()
+    sheets: int = 0  # Parts without thickness
+    table: tuple[PartCounts, ...] = ()  # The first parts, at most `MOST_ROWS`; empty for one part
 
     def __str__(self) -> str:
         """Return a sentence; it is empty for one part."""
@@ -215,32 +190,18 @@ def _leave_out(shape: Shape, of_sheets: Flags) -> Shape:
 
 @dataclass(frozen=True, eq=False)
 class PartShape:
-    """A connected part of a shape.
+    """A connected part of a shape."""
 
-    Parameters
-    ----------
-    number : int
-        The number of the part, from 1, in the order of the first faces of all parts.
-    shape : Shape
-    """
-
-    number: int
+    number: int  # The number of the part, from 1, in the order of the first faces of all parts
     shape: Shape
 
 
 @dataclass(frozen=True, eq=False)
 class SplitShape:
-    """The connected parts of a shape that bound a solid.
-
-    Parameters
-    ----------
-    parts : tuple of PartShape
-    count : int
-        The number of all parts.
-    """
+    """The connected parts of a shape that bound a solid."""
 
     parts: tuple[PartShape, ...]
-    count: int
+    count: int  # The number of all parts
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -20,13 +20,7 @@ def noise_of(points: Floats, triangles: Ints, normals: Floats) -> float:
 
     Where the normals were computed from the samples themselves, values above a fifth are underestimated.
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-    triangles : (f, 3) int32
-        The surface between the samples.
-    normals : (n, 3) float64
-        Vectors of length 1 or 0.
+    Between the (n, 3) samples is a surface of (f, 3) triangles; the (n, 3) normals have length 1 or 0.
     """
     rough, deviation = zip(*_KNOWN, strict=True)
     return float(np.interp(_roughness(points, triangles, normals), rough, deviation))

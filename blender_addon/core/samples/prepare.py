@@ -18,38 +18,19 @@ from .scan import Scan, prepared
 
 @dataclass(frozen=True, eq=False)
 class Input:
-    """A shape to analyse, how to analyse it, and what was done to it.
+    """A shape to analyse, how to analyse it, and what was done to it."""
 
-    Parameters
-    ----------
-    given : Shape
-        With faces that look outward; before sheets were left out, or before it was wrapped.
-    read : Shape
-        Without sheets, or wrapped; before points were moved or left out.
-    shape : Shape
-        The one that is analysed.
-    settings : Settings
-        `side` is not AUTOMATIC, and a wrap is a closed surface.
-    sharp : float
-        The angle from which edges are sharp.
-    first : Amount
-        That of a first pass over the faces; nothing where there are none.
-    scan : Scan or None
-        What was measured of points without faces, and done to them; None where there are faces.
-    wrap : str
-        The reason for what is inside of a wrap; or empty.
-    thinned : str
-        A sentence that explains why there are fewer samples than the settings ask for; or empty.
-    """
-
+    # With faces that look outward; before sheets were left out, or before it was wrapped
     given: Shape
-    read: Shape
-    shape: Shape
-    settings: Settings
-    sharp: float
-    first: Amount
+    read: Shape  # Without sheets, or wrapped; before points were moved or left out
+    shape: Shape  # The one that is analysed
+    settings: Settings  # `side` is not AUTOMATIC, and a wrap is a closed surface
+    sharp: float  # The angle from which edges are sharp
+    first: Amount  # The amount of a first pass over the faces; nothing where there are none
+    # The measures of points without faces, and what was done to them; None where there are faces
     scan: Scan | None = None
-    wrap: str = ""
+    wrap: str = ""  # The reason for what is inside of a wrap; or empty
+    # A sentence that explains why there are fewer samples than the settings ask for; or empty
     thinned: str = ""
 
 

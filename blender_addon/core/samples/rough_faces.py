@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
-from ..shape.cube_faces import are_cubes
 from ..shape.shape import Shape
+from ..shape.triangles import unit_normals
 from ..small_matrices import dot, summed
 from .scan import SOME
 from .surface_normals import cross
@@ -29,6 +29,12 @@ _OF_CUBES = (
     "the faces are sides of cubes and were left as they are; if they are the steps of a scan, which are noise, "
     "Denoise Always moves the vertices"
 )
+# In radians: rounding to float32 turns a side far less, and noise most sides more.
+_TURNED = 0.01  # chosen: unseen
+# A share of the area: the rest may be grass and the like. Surfaces that programs make of voxels have at most 0.65,
+# unless the shape is a box, which has no noise.
+_NEARLY_ALL = 0.98  # measured: 0.65 and 1
+_TRIED = 8  # triangles for the first direction: any of them may be grass
 
 
 def smooth_faces(
@@ -36,13 +42,8 @@ def smooth_faces(
 ) -> tuple[Shape, str]:
     """Return a shape whose vertices lie on smooth surfaces, and a sentence; the same shape and "" where no noise is.
 
-    Parameters
-    ----------
-    shape : Shape
-        One without faces, and the samples of curves and texts, are returned as they are.
-    settings : Settings
-        Only `prepare` and `sides` matter; a wrap has its own faces.
-    progress : _medial.Progress, optional
+    A shape without faces, and the samples of curves and texts, are returned as they are, and so is one whose settings
+    want a wrap, which has its own faces.
     """
     if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
         return shape, ""
@@ -104,3 +105,25 @@ def _vertex_normals(points: Floats, triangles: Ints) -> Floats:
     """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     return summed(triangles, cross(b - a, c - a)[:, None], len(points))
+
+
+def are_cubes(points: Floats, triangles: Ints) -> bool:
+    """Return whether nearly all of the area looks along three directions that are perpendicular to each other.
+
+    Such are meshes of cubes, as of voxel art: their steps are meant. The (n, 3) points are in a unit in which the
+    squares of areas are finite, and there is at least one triangle.
+    """
+    normals, area = unit_normals(points[triangles])
+    tried = np.linspace(0, len(normals) - 1, _TRIED).astype(np.int64)
+    most = max(_area_along(normals, area, normals[one]) for one in tried)
+    return bool(most >= _NEARLY_ALL * area.sum())
+
+
+def _area_along(normals: Floats, area: Floats, first: Floats) -> float:
+    """The area that looks along a direction, or along that of the largest triangle across, or across both."""
+    across = np.abs(dot(normals, first)) < _TURNED
+    second = normals[np.where(across, area, 0.0).argmax()]
+    along = np.zeros(len(area), bool)
+    for direction in (first, second, np.cross(first, second)):
+        along |= np.abs(dot(normals, direction)) > 1.0 - _TURNED**2 / 2.0
+    return float(area[along].sum())

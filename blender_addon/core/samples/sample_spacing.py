@@ -24,32 +24,17 @@ def mean_spacing(area: float, count: int) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Amount:
-    """How many samples a pass takes from the faces, where, and whether in pairs.
+    """How many samples a pass takes from the faces, where, and whether in pairs."""
 
-    Parameters
-    ----------
-    count : int
-        About how many samples a first pass takes, where vertices that Keep Vertices adds do not count; else the most.
-    spacing : float
-        The distance of neighbours in a first pass.
-    share : float
-        The share of the work left that the pass is.
-    by_spacing : bool
-        The spacing was chosen, and the number follows from it.
-    sizing : pair of arrays, optional
-        (k, 3) sites and (k,) the spacings there; None in a first pass.
-    pairs : bool
-        In pairs, whatever the settings say.
-    flat : float
-        The samples lie on the flat faces, with edges that are sharp from this angle on; 0.0: as the settings say.
-    """
-
+    # About how many samples a first pass takes, where vertices that Keep Vertices adds do not count; else the most
     count: int
-    spacing: float
-    share: float = _LATER
-    by_spacing: bool = False
+    spacing: float  # The distance of neighbours in a first pass
+    share: float = _LATER  # The share of the work left that the pass is
+    by_spacing: bool = False  # The spacing was chosen, and the number follows from it
+    # (k, 3) sites and (k,) the spacings there; None in a first pass
     sizing: tuple[Floats, Floats] | None = None
-    pairs: bool = False
+    pairs: bool = False  # In pairs, whatever the settings say
+    # The samples lie on the flat faces, with edges that are sharp from this angle on; 0.0: as the settings say
     flat: float = 0.0
 
 

@@ -25,35 +25,21 @@ from .sampling_warnings import sampling_warnings
 
 @dataclass(frozen=True, eq=False)
 class SamplingReport(TriangleFaces):
-    """The samples, the surface between them, and estimates for each sample.
+    """The samples, the surface between them, and estimates for each sample."""
 
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-        The samples, in the order in which the generators of a medial axis count them.
-    triangles : (f, 3) int32
-        The surface between inside and outside, counter-clockwise as seen from outside.
-    epsilon, spacing, feature_size : (n,) float64
-        As in `density`; rows with the same coordinates have the same values.
-    moved : (n,) float64
-        How far each point of a scan or vertex of noisy faces was moved; 0 where nothing was, and for samples of faces.
-    density : Density
-        The density at all samples.
-    shape : Shape
-        The shape that was sampled.
-    chosen : ChosenSamples
-    warnings : tuple of str
-    seconds : float
-    """
-
+    # (n, 3) The samples, in the order in which the generators of a medial axis count them
     vertices: Floats
+    # (f, 3) The surface between inside and outside, counter-clockwise as seen from outside
     triangles: Ints
+    # (n,) As in `density`; rows with the same coordinates have the same values
     epsilon: Floats
     spacing: Floats
     feature_size: Floats
+    # (n,) How far each point of a scan or vertex of noisy faces was moved; 0 where nothing was, and for samples of
+    # faces
     moved: Floats
-    density: Density
-    shape: Shape
+    density: Density  # The density at all samples
+    shape: Shape  # The shape that was sampled
     chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
@@ -65,15 +51,7 @@ def report_sampling(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> SamplingReport:
-    """Sample an object as `compute_axis` does, and estimate the density of the samples.
-
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-    progress : Progress, optional
-    limit : MemoryLimit
-    """
+    """Sample an object as `compute_axis` does, and estimate the density of the samples."""
     settings, given = settings.with_side(), shape
     shape, rough = smooth_faces(shape, settings, progress and progress.part(SMOOTHING))
     begun = begin(shape, settings, progress, limit)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..errors import Severe
 from ..settings import SamplingMode
-from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.outward_faces import reading_warnings
 from ..shape.own_frame import rounding_warning
@@ -75,17 +75,13 @@ def _crossing(shape: Shape) -> str:
 
 def _differs(chosen: ChosenSamples) -> str:
     count, worst = len(chosen.samples.points), chosen.worst
-    if worst is None:
-        return (
-            "the axis has not as many pieces, loops and cavities as the faces, although "
-            f"{count:,} samples were taken: details, gaps or folds of the faces are smaller than "
-            "their spacing; a larger Budget or Merge by Distance may help"
-        )
+    where = (
+        f", most of all near {worst.words}, where they are {worst.apart:.2g} apart" if worst else ""
+    )
     return (
         "the axis has not as many pieces, loops and cavities as the faces, although "
         f"{count:,} samples were taken: details, gaps or folds of the faces are smaller than "
-        f"their spacing, most of all near {worst.words}, where they are {worst.apart:.2g} apart; "
-        "a larger Budget or Merge by Distance may help"
+        f"their spacing{where}; a larger Budget or Merge by Distance may help"
     )
 
 

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Floats
+from ..errors import Severe
 from ..machine import native
 from ..machine.progress import Progress
 from ..settings import Prepare, Settings, SidesFrom
-from ..severe import Severe
 from ..shape.shape import Shape
 from .density import percent
 
@@ -30,36 +30,22 @@ _THIN = 5.0  # walls of fewer standard deviations of the noise become one; chose
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """The figures of points without faces, measured, and what was done to them.
+    """The figures of points without faces, measured, and what was done to them."""
 
-    Parameters
-    ----------
-    given, kept : int
-        The numbers of points before and after.
-    spacing : float
-        The distance of neighbours, as if the points were evenly spread.
-    noise : float
-        The standard deviation of a point from the surface, in spacings; 0.0 where none is seen.
-    kurtosis : float
-        How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers.
-    mates : float
-        How many pairs of close points have the same height, in units of what errors have.
-    duplicates, outliers : int
-    border : float
-        The share of the points at which the surface ends.
-    moved : (kept,) float64 or None
-        How far each point was moved; None where nothing was moved.
-    """
-
+    # The numbers of points before and after
     given: int
     kept: int
-    spacing: float
+    spacing: float  # The distance of neighbours, as if the points were evenly spread
+    # The standard deviation of a point from the surface, in spacings; 0.0 where none is seen
     noise: float
+    # How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers
     kurtosis: float
+    # How many pairs of close points have the same height, in units of what errors have
     mates: float
     duplicates: int
     outliers: int
-    border: float
+    border: float  # The share of the points at which the surface ends
+    # (kept,) How far each point was moved; None where nothing was moved
     moved: Floats | None = None
 
     @property
@@ -76,18 +62,7 @@ class Scan:
     def figures(self) -> dict[str, Any]:
         """The figures for a report."""
         moved = None if self.moved is None else float(np.median(self.moved))
-        names = (
-            "given",
-            "kept",
-            "spacing",
-            "noise",
-            "kurtosis",
-            "mates",
-            "duplicates",
-            "outliers",
-            "border",
-        )
-        return {**{name: getattr(self, name) for name in names}, "moved": moved}
+        return {**asdict(self), "moved": moved}
 
 
 def prepared(
@@ -96,12 +71,6 @@ def prepared(
     """Return a shape whose points lie on smooth surfaces, and the figures; the same shape where nothing is to be done.
 
     Faces say more than this measure, so a shape that has any is not measured.
-
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-    progress : Progress, optional
     """
     if len(shape.triangles) or len(shape.points) == 0:
         return shape, None
@@ -146,15 +115,7 @@ def _wanted(wanted: Prepare, scan: Scan) -> tuple[bool, bool]:
 
 
 def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
-    """Say what was found and done, a sentence each: noise, layers, outliers, openings.
-
-    Parameters
-    ----------
-    scan : Scan or None
-        None yields nothing.
-    sides : SidesFrom
-        The source that decided between inside and outside.
-    """
+    """Say what was found and done, a sentence each: noise, layers, outliers, openings; nothing without a scan."""
     if scan is None:
         return
     yield from _noise(scan)

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
-from ..errors import DegenerateInputError, InvalidInputError
+from ..errors import DegenerateInputError, InvalidInputError, Severe
 from ..machine import native
 from ..settings import Side, SidesFrom
-from ..severe import Severe
 from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of
@@ -76,14 +75,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     outside of this region's interior bound it. The faces of a sheet do not; there the votes of the normals determine
     what lies behind it, which `check_not_a_sheet` takes only for an axis of both sides.
 
-    Parameters
-    ----------
-    wanted : SidesFrom
-    shape : Shape
-    gaps : int
-        The number of edges at which the faces are open.
-    spacing : float
-        The distance of neighbouring samples.
+    The faces are open at `gaps` edges; the spacing is the distance of neighbouring samples.
     """
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
@@ -102,17 +94,10 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
 
 
 def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flags:
-    """Mark the connected parts that are sheets among all others, (count,).
+    """Mark the connected parts that are sheets among all others, (count,), given the (m,) part of each face, or -1.
 
-    Parameters
-    ----------
-    shape : Shape
-    part : (m,) int32
-        The part of each face; -1 for none.
-    is_open : (count,) bool
-        Of each part. An open part that lies in the solid bounds nothing, and a closed one there does no harm.
-    spacing : float
-        The distance of neighbouring samples.
+    An open part that lies in the solid bounds nothing, and a closed one there does no harm. The spacing is the distance
+    of neighbouring samples.
     """
     count = len(is_open)
     rows = np.flatnonzero(part >= 0)
@@ -128,13 +113,7 @@ def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flag
 def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
     """Raise DegenerateInputError where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
 
-    Parameters
-    ----------
-    sides : Sides
-        As `resolve_sides_of_samples` returns them.
-    side : Side
-    gaps : int
-        The number of edges at which the faces are open.
+    The sides are as `resolve_sides_of_samples` returns them; the faces are open at `gaps` edges.
     """
     if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
         raise open_sheet_error(gaps)
@@ -142,14 +121,10 @@ def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
 
 def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
     """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
-    if not of_axis:
-        return DegenerateInputError(
-            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-            "Solidify modifier)"
-        )
+    others = ", or choose Side Both, or Inside Decided By Normals for what lies behind it"
     return DegenerateInputError(
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it"
+        f"Solidify modifier){others if of_axis else ''}"
     )
 
 
@@ -186,14 +161,7 @@ def look_inward(points: Floats, normals: Floats) -> bool:
 
 
 def cocone_warnings(found: Any, points: Floats) -> Iterator[str]:
-    """Warn about suspicious properties of a surface that Tight Cocone found.
-
-    Parameters
-    ----------
-    found : _medial.TightCocone
-    points : (n, 3) float64
-        The points from which it was made.
-    """
+    """Warn about suspicious properties of a surface that Tight Cocone found, a `_medial.TightCocone` of points."""
     if not found.encloses:
         yield Severe(
             "the points enclose nothing, so inner and outer facets mean little; more points may help"
@@ -234,12 +202,7 @@ def pole_warnings(analysis: Any, points: Floats) -> Iterator[str]:
 
     It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
 
-    Parameters
-    ----------
-    analysis : _medial.MedialAnalysis
-        Its sides are from the poles.
-    points : (n, 3) float64
-        The points that were analysed.
+    The sides of the analysis of these (n, 3) points are from the poles.
     """
     crossing = int(native.load().Side.CROSSING)
     pairs = analysis.edges[analysis.side == crossing]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..settings import SamplingMode, SidesFrom
 from ..shape.shape import Shape
 from ..small_matrices import dot
@@ -18,21 +18,12 @@ from .chosen import ChosenSamples
 
 @dataclass(frozen=True, eq=False)
 class SurfaceNormals:
-    """Normals of the surface at each sample.
+    """Normals of the surface at each sample."""
 
-    Parameters
-    ----------
-    normals : (n, 3) float64
-        Outward; zero where there is no normal.
-    at_edge : (n,) bool
-        The sample lies on a sharp edge, where the normal is the mean of several faces.
-    source : str
-        A sentence about the source of the normals.
-    """
-
-    normals: Floats
+    normals: Floats  # (n, 3) Outward; zero where there is no normal
+    # (n,) The sample lies on a sharp edge, where the normal is the mean of several faces
     at_edge: Flags
-    source: str
+    source: str  # A sentence about the source of the normals
 
 
 def measured_surface(shape: Shape, chosen: ChosenSamples) -> Ints:

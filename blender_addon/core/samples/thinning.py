@@ -66,14 +66,7 @@ def fewer_samples(
 ) -> tuple[Settings, str]:
     """Change settings so that the samples of the faces can be analysed within a limit, and report it in a sentence.
 
-    Parameters
-    ----------
-    shape : Shape
-    settings : Settings
-    first : int
-        The number of samples that the first pass would have.
-    limit, error
-        As for `thinned_rows`.
+    The first pass would have `first` samples; limit and error are as for `thinned_rows`.
     """
     most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
     sentence = f"{_too_many(limit, error)}: at most {most:,} samples of the surface were taken"

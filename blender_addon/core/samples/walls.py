@@ -38,34 +38,17 @@ _HOPELESS = 0.5  # chosen: unseen
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places on the flat faces, where the opposite wall is looked for.
+    """Places on the flat faces, where the opposite wall is looked for."""
 
-    Parameters
-    ----------
-    points, normals : (n, 3) float64
-        The normals are the unit normals of the faces.
-    spacing : (n,) float64
-        The distance of neighbouring samples there.
-    area : (n,) float64
-        The area that each place represents; only ratios matter.
-    faces : (n,) int32
-        The triangle of the shape on which each place lies.
-    bend : (n,) float64, optional
-        The curvature of the surface there.
-    paired : (n,) bool, optional
-        Whether the sample there has a partner on the opposite wall.
-    bulge : (n,) float64, optional
-        The distance of the sample from the flat face.
-    """
-
+    # (n, 3) The normals are the unit normals of the faces
     points: Floats
     normals: Floats
-    spacing: Floats
-    area: Floats
-    faces: Ints
-    bend: Floats | None = None
-    paired: Flags | None = None
-    bulge: Floats | None = None
+    spacing: Floats  # (n,) The distance of neighbouring samples there
+    area: Floats  # (n,) The area that each place represents; only ratios matter
+    faces: Ints  # (n,) The triangle of the shape on which each place lies
+    bend: Floats | None = None  # (n,) The curvature of the surface there
+    paired: Flags | None = None  # (n,) Whether the sample there has a partner on the opposite wall
+    bulge: Floats | None = None  # (n,) The distance of the sample from the flat face
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,14 +56,9 @@ class Walls(Places):
     """Places on the faces with the distance to the opposite wall.
 
     Between walls whose samples are `paired` the axis is missing only where the walls bend away between the samples.
-
-    Parameters
-    ----------
-    distance : (n,) float64
-        Infinite where there is no wall within two spacings.
     """
 
-    distance: Floats
+    distance: Floats  # (n,) Infinite where there is no wall within two spacings
 
     @cached_property
     def missed(self) -> float:
@@ -130,11 +108,7 @@ class Walls(Places):
     def are_reached_by(self, budget: int, area: float) -> bool:
         """Return whether a budget of samples, all of them spent on missed walls, would show most of these.
 
-        Parameters
-        ----------
-        budget : int
-        area : float
-            The area of all faces.
+        The area is that of all faces.
         """
         spacing = math.sqrt(2.0 / math.sqrt(3.0) * area * self.missed / budget)
         needed = self.distance / _HOPELESS
@@ -164,14 +138,7 @@ def middles_of_faces(shape: Shape) -> Places:
 
 
 def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
-    """Measure the distance to the opposite wall.
-
-    Parameters
-    ----------
-    shape : Shape
-    places : Places
-    progress : _medial.Progress
-    """
+    """Measure the distance to the opposite wall."""
     with native.own_errors() as module:
         distance = module.wall_distances(
             places.points,

@@ -25,14 +25,7 @@ _OFF = 1e-6  # of a face's size: from its two sides the winding number is asked;
 def bent_sheets(shape: Shape, part: Ints, count: int) -> Flags:
     """Mark the parts that are sheets and bound nothing together with others, (count,).
 
-    Parameters
-    ----------
-    shape : Shape
-        With faces that look to one side in each part.
-    part : (m,) int32
-        The part of each face; -1 for none.
-    count : int
-        The number of parts.
+    The (m,) part of each face is -1 for none; the faces of a part look to one side.
     """
     corners = shape.points[shape.triangles]
     vectors = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -95,8 +95,7 @@ class Shape:
     @cached_property
     def area(self) -> float:
         """The area of all faces."""
-        a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
-        return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
+        return float(unit_normals(self.points[self.triangles])[1].sum()) / 2
 
     @cached_property
     def open_edges(self) -> int:

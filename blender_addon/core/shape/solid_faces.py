@@ -19,20 +19,13 @@ _CLEARLY = 1.01  # measured: 30.1 of 30 degrees
 
 @dataclass(frozen=True, eq=False)
 class SolidFaces:
-    """The faces that bound the solid, and where the samples lie on them.
-
-    Parameters
-    ----------
-    shape : Shape
-    face : (n,) int32
-        The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
-    flat : float
-        The samples lie on the flat faces, whatever the settings say, with edges that are sharp from this angle on; 0.0:
-        as the settings say.
-    """
+    """The faces that bound the solid, and where the samples lie on them."""
 
     shape: Shape
+    # (n,) The triangle of the shape on which each sample lies; -1 for a sample that closes an opening
     face: Ints
+    # The samples lie on the flat faces, whatever the settings say, with edges that are sharp from this angle on; 0.0:
+    # as the settings say
     flat: float = 0.0
 
     def options(self, settings: Settings) -> tuple[float, bool]:
@@ -57,14 +50,8 @@ def solid_faces(
 ) -> SolidFaces | None:
     """Return the faces of a shape if they decide what is inside, and None otherwise.
 
-    Parameters
-    ----------
-    shape : Shape
-    source : SidesFrom
-    face : (n,) int32, optional
-        The triangle on which each sample lies; the default is a triangle at each vertex.
-    flat : float
-        As in `SolidFaces`.
+    The (n,) faces are the triangles on which samples lie, by default a triangle at each vertex; `flat` is as in
+    `SolidFaces`.
     """
     if source is not SidesFrom.SURFACE or not len(shape.triangles) or not shape.volume > 0:
         return None

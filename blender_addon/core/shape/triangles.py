@@ -34,6 +34,13 @@ def side_keys(faces: Ints | Longs, count: int) -> Longs:
     return np.minimum(start, end) * count + np.maximum(start, end)
 
 
+def equal_pairs(keys: NDArray[np.integer]) -> tuple[Longs, Longs]:
+    """Return the rows of each two equal numbers between which, of all rows, no other one is equal, (p,) each."""
+    order = np.argsort(keys, kind="stable")
+    same = keys[order[:-1]] == keys[order[1:]]
+    return order[:-1][same], order[1:][same]
+
+
 def edges_of(triangles: Ints) -> Ints:
     """Return the edges of triangles, each once, (e, 2)."""
     count = int(triangles.max(initial=0)) + 1

@@ -35,18 +35,10 @@ MEASURES = ("curvature", "torsion", "area", "perimeter")
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """A profile has the measures at places of one branch.
+    """A profile has the measures at places of one branch."""
 
-    Parameters
-    ----------
-    share : (n,) float64
-        The share of the length before each place, ascending.
-    values : (n, 4) float64
-        MEASURES; nan where they are unknown.
-    """
-
-    share: Floats
-    values: Floats
+    share: Floats  # (n,) The share of the length before each place, ascending
+    values: Floats  # (n, 4) MEASURES; nan where they are unknown
 
     def at(self, share: Floats) -> Floats:
         """Return the measures at other shares, (k, 4); they are nan before the first place and after the last."""
@@ -62,58 +54,37 @@ class Branches:
     """Branches have a row each, in the order of the skeleton; nan is an unknown number.
 
     Bends and cross-sections are measured outside of the balls at both ends.
-
-    Parameters
-    ----------
-    start, end : (b,) int32
-        Rows of the points of the skeleton.
-    start_degree, end_degree : (b,) int32
-        This many branches end there: 1 at a tip, 3 or more at a fork, 2 where a loop without a fork closes.
-    on_loop : (b,) bool
-        A way leads from the start to the end without the branch.
-    length : (b,) float64
-        The length of the smooth line and of the ways to its ends, in the unit of the input, as all lengths.
-    distance : (b,) float64
-        The distance between both ends.
-    tortuosity : (b,) float64
-        The length over the distance; nan where a branch ends where it starts.
-    radius_mean, radius_least, radius_largest : (b,) float64
-        The mean is along the length.
-    curvature_mean, curvature_largest : (b,) float64
-        In the inverse of the unit.
-    torsion_mean : (b,) float64
-        The mean weighted by the square of the curvature, as torsion has no meaning where a line is straight; positive
-        where the line turns like the thread of a usual screw; nan if the line is straight everywhere.
-    sections : (b,) int32
-        The number of cross-sections that were measured.
-    area_mean, area_least, area_largest : (b,) float64
-    perimeter_mean, perimeter_least, perimeter_largest : (b,) float64
-    profiles : list of Profile
-        The measures along each branch.
     """
 
+    # (b,) Rows of the points of the skeleton
     start: Ints
     end: Ints
+    # (b,) This many branches end there: 1 at a tip, 3 or more at a fork, 2 where a loop without a fork closes
     start_degree: Ints
     end_degree: Ints
-    on_loop: Flags
+    on_loop: Flags  # (b,) A way leads from the start to the end without the branch
+    # (b,) The length of the smooth line and of the ways to its ends, in the unit of the input, as all lengths
     length: Floats
-    distance: Floats
-    tortuosity: Floats
+    distance: Floats  # (b,) The distance between both ends
+    tortuosity: Floats  # (b,) The length over the distance; nan where a branch ends where it starts
+    # (b,) The mean is along the length
     radius_mean: Floats
     radius_least: Floats
     radius_largest: Floats
+    # (b,) In the inverse of the unit
     curvature_mean: Floats
     curvature_largest: Floats
+    # (b,) The mean weighted by the square of the curvature, as torsion has no meaning where a line is straight;
+    # positive where the line turns like the thread of a usual screw; nan if the line is straight everywhere
     torsion_mean: Floats
-    sections: Ints
-    area_mean: Floats
-    area_least: Floats
-    area_largest: Floats
-    perimeter_mean: Floats
-    perimeter_least: Floats
-    perimeter_largest: Floats
-    profiles: list[Profile]
+    sections: Ints  # (b,) The number of cross-sections that were measured
+    area_mean: Floats  # (b,)
+    area_least: Floats  # (b,)
+    area_largest: Floats  # (b,)
+    perimeter_mean: Floats  # (b,)
+    perimeter_least: Floats  # (b,)
+    perimeter_largest: Floats  # (b,)
+    profiles: list[Profile]  # The measures along each branch
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -133,14 +104,8 @@ def branches_of(
 ) -> Branches:
     """Measure the branches of a skeleton.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        It names the ends of branches.
-    curve : Skeleton, optional
-        The same branches with more points, which are measured.
-    faces : Faces, optional
-        Without them cross-sections are unknown.
+    The skeleton names the ends of branches; a curve has the same branches with more points, which are measured. Without
+    faces cross-sections are unknown.
     """
     curve = curve or skeleton
     degree = skeleton.degree

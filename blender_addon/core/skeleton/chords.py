@@ -14,8 +14,8 @@ import numpy as np
 from ..arrays import Flags, Floats, Longs
 from ..curves.depth import Depth
 from ..curves.net import Net
-from ..portable_cosine import cosine
-from ..small_matrices import length_of
+from ..portable_angle import cosine
+from ..small_matrices import dot, length_of
 
 _HALVED = 8  # an edge that balls at so fine places do not cover touches the surface
 # Balls on two sides of the surface may touch, and by rounding seem to overlap; balls overlap by more than this share.
@@ -147,3 +147,40 @@ def _even_directions(count: int) -> Floats:
     turn = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
     across = np.sqrt(1.0 - height**2)
     return np.column_stack((across * cosine(turn), across * cosine(turn - np.pi / 2), height))
+
+
+def kept_points(points: Floats, tolerance: Floats) -> Longs:
+    """Return the points of a chain that are kept, ascending, by the rule of Douglas and Peucker (1973).
+
+    They include its ends, and no other point is farther than its tolerance from the chain of the kept points.
+
+    The dimension of the (n, k) points is arbitrary, and each has a tolerance, (n,). The first and last points of a
+    closed chain are equal.
+    """
+    last = len(points) - 1
+    kept, left = {0, last}, [(0, last)]
+    while left:
+        first, end = left.pop()
+        if end - first < 2:
+            continue
+        inner = slice(first + 1, end)
+        excess = _distance(points[inner], points[first], points[end]) / tolerance[inner]
+        worst = int(np.argmax(excess))
+        if excess[worst] > 1.0:
+            kept.add(first + 1 + worst)
+            left += [(first, first + 1 + worst), (first + 1 + worst, end)]
+    if last > 2 and np.array_equal(points[0], points[last]) and len(kept) < 4:
+        kept |= {last // 3, 2 * last // 3}  # a loop must not collapse to a line
+    return np.array(sorted(kept), np.int64)
+
+
+def _distance(points: Floats, a: Floats, b: Floats) -> Floats:
+    """Return the distances from points to a segment."""
+    along = b - a
+    square = float(dot(along, along))
+    share = (
+        np.clip(dot(points - a, along) / square, 0.0, 1.0)
+        if square > 0.0
+        else np.zeros(len(points))
+    )
+    return np.linalg.norm(points - a - share[:, None] * along, axis=1)

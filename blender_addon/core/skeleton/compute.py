@@ -29,8 +29,7 @@ from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
 from ..shape.shape import Shape
-from .centre import centre_of_mass
-from .chords import keep_inside, kept_inside
+from .chords import keep_inside, kept_inside, kept_points
 from .chosen_ends import join_ends
 from .fill import Filled, filled
 from .forks import draw_forks
@@ -38,46 +37,23 @@ from .join_pieces import join_pieces, no_joins
 from .middle import inscribe, lead_through_middle
 from .mirror import make_symmetric
 from .parts import Parts, parts_of, places
-from .simplify import kept_points
-from .skeleton import Skeleton, skeleton_of
+from .skeleton import Skeleton, centre_of_mass, skeleton_of
 from .warnings import fill_warnings, skeleton_warnings
 
 
 @dataclass(frozen=True, eq=False)
 class Skeletonization(OfChosenSamples):
-    """A skeletonization holds a skeleton and how it was computed.
-
-    Parameters
-    ----------
-    shape : Shape
-    skeleton : Skeleton
-        It has as few points as the settings allow.
-    curve : Skeleton
-        The same branches with all points.
-    parts : Parts
-        They assign the surface to the branches.
-    loops : Loops
-        They count the small loops that were cut and filled.
-    mirrored : bool
-        Both halves were replaced by their mean.
-    outside : int
-        This many edges of the skeleton leave the solid.
-    chosen : ChosenSamples
-        The samples that were analysed, the reason for them, and their density.
-    warnings : tuple of str
-        Each assumption and each suspicion is one sentence.
-    seconds : float
-    """
+    """A skeletonization holds a skeleton and how it was computed."""
 
     shape: Shape
-    skeleton: Skeleton
-    curve: Skeleton
-    parts: Parts
-    loops: Loops
-    mirrored: bool
-    outside: int
-    chosen: ChosenSamples
-    warnings: tuple[str, ...]
+    skeleton: Skeleton  # It has as few points as the settings allow
+    curve: Skeleton  # The same branches with all points
+    parts: Parts  # They assign the surface to the branches
+    loops: Loops  # They count the small loops that were cut and filled
+    mirrored: bool  # Both halves were replaced by their mean
+    outside: int  # This many edges of the skeleton leave the solid
+    chosen: ChosenSamples  # The samples that were analysed, the reason for them, and their density
+    warnings: tuple[str, ...]  # Each assumption and each suspicion is one sentence
     seconds: float
 
 

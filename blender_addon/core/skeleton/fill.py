@@ -14,7 +14,7 @@ from ..machine.native import own_errors
 from ..shape.nearness import same_place
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import Shape
-from ..shape.triangles import side_keys, unit_normals
+from ..shape.triangles import equal_pairs, side_keys, unit_normals
 from ..small_matrices import length_of
 from ..united import united
 
@@ -24,21 +24,12 @@ _LOOKED_AT = 64  # faces of a patch, at most
 
 @dataclass(frozen=True, eq=False)
 class Filled:
-    """A filled shape.
+    """A filled shape."""
 
-    Parameters
-    ----------
-    shape : Shape
-        The faces outside, with a lid on each opening.
-    inner : (k, 3) int32
-        The faces inside, rows of the points that the shape had; none where it is not hollow.
-    share : float
-        Their share of the area.
-    """
-
-    shape: Shape
+    shape: Shape  # The faces outside, with a lid on each opening
+    # (k, 3) The faces inside, rows of the points that the shape had; none where it is not hollow
     inner: Ints
-    share: float
+    share: float  # Their share of the area
 
 
 def filled(shape: Shape) -> Filled:
@@ -95,9 +86,7 @@ def _has_opposite_wall(points: Floats, faces: Ints, normals: Floats, diagonal: f
 def _patches(faces: Longs, label: Flags) -> Longs:
     """Return the number of the patch of each face: faces of one label that share edges are of one patch."""
     keys = side_keys(faces, int(faces.max(initial=0)) + 1).ravel()
-    order = np.argsort(keys, kind="stable")
-    same = keys[order][1:] == keys[order][:-1]
-    pairs = np.column_stack((order[:-1], order[1:]))[same] // 3
+    pairs = np.column_stack(equal_pairs(keys)) // 3
     return united(len(faces), pairs[label[pairs[:, 0]] == label[pairs[:, 1]]].astype(np.int32))
 
 

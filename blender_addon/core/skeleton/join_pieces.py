@@ -31,7 +31,7 @@ def join_pieces(net: Net, depth: Depth, shape: Shape) -> tuple[int, Longs]:
     joins : (k, 2) int64
         The points of the net that the new branches join.
     """
-    piece = _piece_of_nodes(net)
+    piece = net.pieces()
     if len(set(piece.values())) < 2:
         return 0, no_joins()
     rows, of_row = _rows(net, piece)
@@ -90,20 +90,6 @@ def _top(joined: dict[int, int], piece: int) -> int:
     while joined[piece] != piece:
         piece = joined[piece]
     return piece
-
-
-def _piece_of_nodes(net: Net) -> dict[int, int]:
-    """Return a number of the piece of each node."""
-    found: dict[int, int] = {}
-    for start in net.at:
-        left = [start]
-        while left:
-            if (node := left.pop()) not in found:
-                found[node] = start
-                for name in net.at[node]:
-                    chain = net.branches[name]
-                    left += [chain[0], chain[-1]]
-    return found
 
 
 def _rows(net: Net, piece: dict[int, int]) -> tuple[Longs, Longs]:

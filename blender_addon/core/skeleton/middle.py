@@ -27,12 +27,7 @@ _ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places 
 def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:
     """Make every radius of a net the distance to the surface.
 
-    Parameters
-    ----------
-    net : Net
-    depth : Depth
-    plane : float, optional
-        The net is symmetric in X at this plane. Its radii remain so: they are those of balls that fit on both sides.
+    If the net is symmetric in X at a plane, its radii remain so: they are those of balls that fit on both sides.
     """
     used = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
     places = net.points[used]
@@ -43,14 +38,7 @@ def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:
 
 
 def lead_through_middle(net: Net, depth: Depth) -> None:
-    """Move the points of a net to the middle of the solid; every radius becomes the distance to the surface.
-
-    Parameters
-    ----------
-    net : Net
-    depth : Depth
-        The distance of places from the surface.
-    """
+    """Move the points of a net to the middle of the solid; every radius becomes the distance to the surface."""
     inscribe(net, depth)
     tips = net.tips()
     rows = np.setdiff1d(np.concatenate([*net.branches.values(), []]).astype(np.int64), tips)

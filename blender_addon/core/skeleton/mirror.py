@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..curves.net import Net
+from ..curves.smooth_line import at_marks
 from ..shape.nearness import near, nearest
 from ..small_matrices import length_of
 
@@ -18,19 +19,7 @@ SYMMETRIC = 0.02  # a mirror image may be off by this share of the size; chosen:
 
 
 def make_symmetric(net: Net, plane: float) -> bool:
-    """Average both halves of a net.
-
-    Parameters
-    ----------
-    net : Net
-    plane : float
-        The mirror plane has this X.
-
-    Returns
-    -------
-    done : bool
-        False where the net is not symmetric.
-    """
+    """Average both halves of a net on the two sides of an X; return False where it is not symmetric."""
     rows = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
     points = net.points[rows]
     allowed = SYMMETRIC * length_of(np.ptp(points, axis=0))
@@ -134,6 +123,6 @@ def _shares(points: Floats) -> Floats:
 
 def _at(net: Net, rows: list[int], share: Floats) -> tuple[Floats, Floats]:
     """Return the points at some shares of the length of a chain, and the radii there."""
-    marks, points = _shares(net.points[rows]), net.points[rows]
-    places = np.column_stack([np.interp(share, marks, points[:, axis]) for axis in range(3)])
-    return places, np.interp(share, marks, net.radius[rows])
+    points = net.points[rows]
+    found = at_marks(share, _shares(points), np.column_stack((points, net.radius[rows])))
+    return found[:, :3].copy(), found[:, 3].copy()

@@ -13,18 +13,10 @@ from ..curves.net import Net
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places are positions along branches.
+    """Places are positions along branches."""
 
-    Parameters
-    ----------
-    branch : (n,) int32
-        It is -1 for places at a point without a branch.
-    along : (n,) float64
-        The share of the branch before it: 0 at its start, 1 at its end.
-    """
-
-    branch: Ints
-    along: Floats
+    branch: Ints  # (n,) It is -1 for places at a point without a branch
+    along: Floats  # (n,) The share of the branch before it: 0 at its start, 1 at its end
 
     def of(self, rows: Longs) -> Places:
         """Return the places of some rows."""
@@ -33,28 +25,17 @@ class Places:
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """Parts assign vertices and faces of a surface to branches.
+    """Parts assign vertices and faces of a surface to branches."""
 
-    Parameters
-    ----------
-    vertices : Places
-        The places of the vertices.
-    faces : (m,) int32
-        The branch of each triangle: that of most of its corners, otherwise of the first; -1 as in `Places`.
-    """
-
-    vertices: Places
+    vertices: Places  # The places of the vertices
+    # (m,) The branch of each triangle: that of most of its corners, otherwise of the first; -1 as in `Places`
     faces: Ints
 
 
 def places(net: Net, names: list[int]) -> Places:
     """Return the place of each point of a net; a fork belongs to the thickest of its branches.
 
-    Parameters
-    ----------
-    net : Net
-    names : list of int
-        The branches in order: the first is branch 0.
+    The names of branches are in order: the first is branch 0.
     """
     branch, along = np.full(len(net.points), -1, np.int32), np.zeros(len(net.points))
     thickness = {name: float(net.radius[net.branches[name]].mean()) for name in names}

@@ -14,28 +14,17 @@ from ..united import united
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """A skeleton has branches between nodes; nodes are tips, forks and points without a branch.
+    """A skeleton has branches between nodes; nodes are tips, forks and points without a branch."""
 
-    Parameters
-    ----------
-    points : (p, 3) float64
-    radius : (p,) float64
-        The radius of the ball around each point, in the unit of the input.
-    branch_offsets : (b + 1,) int32
-        Branch i has the points branch_points[branch_offsets[i] : branch_offsets[i + 1]].
-    branch_points : (c,) int32
-        Rows of `points`, from node to node. A loop starts and ends at the same row.
-    nodes : (k,) int32
-        Rows of `points`, ascending: all ends of branches, and points without a branch.
-    joins : (j, 2) int32
-        Rows of `points`, nearest to the ends of gaps inside the solid across which pieces were joined.
-    """
-
-    points: Floats
-    radius: Floats
+    points: Floats  # (p, 3)
+    radius: Floats  # (p,) The radius of the ball around each point, in the unit of the input
+    # (b + 1,) Branch i has the points branch_points[branch_offsets[i] : branch_offsets[i + 1]]
     branch_offsets: Ints
+    # (c,) Rows of `points`, from node to node. A loop starts and ends at the same row.
     branch_points: Ints
+    # (k,) Rows of `points`, ascending: all ends of branches, and points without a branch
     nodes: Ints
+    # (j, 2) Rows of `points`, nearest to the ends of gaps inside the solid across which pieces were joined
     joins: Ints = field(default_factory=lambda: np.empty((0, 2), np.int32))
 
     @property
@@ -106,3 +95,21 @@ def skeleton_of(points: Floats, radius: Floats, branches: list[Longs], singles: 
         branch_points=row[np.concatenate([*branches, used[:0]])].astype(np.int32),
         nodes=row[np.unique(np.concatenate([ends, singles])).astype(np.int64)].astype(np.int32),
     )
+
+
+def centre_of_mass(skeleton: Skeleton) -> Floats:
+    """Return the centre of mass, (3,), of tubes along the edges and balls at single points.
+
+    It needs no faces, so open or self-intersecting ones do not disturb it.
+    """
+    a, b = skeleton.edges.T
+    length = np.linalg.norm(skeleton.points[a] - skeleton.points[b], axis=1)
+    r, s = skeleton.radius[a], skeleton.radius[b]
+    volume = np.pi * length * (r * r + r * s + s * s) / 3
+    singles = np.setdiff1d(np.arange(len(skeleton.points)), skeleton.edges)
+    places = np.concatenate(
+        ((skeleton.points[a] + skeleton.points[b]) / 2, skeleton.points[singles])
+    )
+    alone = skeleton.radius[singles]
+    volume = np.concatenate((volume, 4 / 3 * np.pi * alone * alone * alone))
+    return np.average(places, axis=0, weights=volume)

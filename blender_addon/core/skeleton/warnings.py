@@ -11,16 +11,8 @@ from .fill import Filled
 def skeleton_warnings(loops: Loops, sheets: int, outside: int, joined: int = 0) -> list[str]:
     """Return the warnings, the most important first.
 
-    Parameters
-    ----------
-    loops : Loops
-        They count the small loops that were cut and filled.
-    sheets : int
-        The number of facets of closed sheets, which have no curve.
-    outside : int
-        The number of edges that leave the solid.
-    joined : int
-        The number of pieces that were joined to others.
+    They count loops that were cut and filled, facets of closed sheets, which have no curve, edges that leave the solid,
+    and pieces that were joined to others.
     """
     found = []
     if sheets:

@@ -18,10 +18,8 @@ import numpy as np
 
 from ..arrays import Longs
 from ..curves.smooth_line import marks_of
-from ..files.extensions import extension_of
-from ..files.json_figures import known
 from ..files.vtp import write_vtp
-from ..files.whole_file import write_whole
+from ..files.writing import extension_of, known, write_rows, write_whole
 from .branches import MEASURES, Branches, branches_of
 from .parts import Parts
 from .skeleton import Skeleton
@@ -88,11 +86,10 @@ def _write_swc(content: _Content, stream: BinaryIO) -> None:
         text = f"# joins pieces across a gap: {number[a]} {number[b]} {length:.17g}\n"
         stream.write(text.encode("ascii"))
     kind = np.where(skeleton.degree > 2, _FORK, np.where(skeleton.degree == 1, _END, _ALONG))
-    for row in order.tolist():
-        above = number[parent[row]] if parent[row] >= 0 else -1
-        x, y, z = skeleton.points[row].tolist()
-        text = f"{number[row]} {kind[row]} {x:.17g} {y:.17g} {z:.17g} {skeleton.radius[row]:.17g} {above}\n"
-        stream.write(text.encode("ascii"))
+    above = np.where(parent >= 0, number[parent], -1)
+    columns = number, kind, skeleton.points, skeleton.radius, above
+    row = "%d %d %.17g %.17g %.17g %.17g %d\n"
+    write_rows(stream, row, *(column[order] for column in columns))
 
 
 def _tree(skeleton: Skeleton) -> tuple[Longs, Longs]:
@@ -120,14 +117,12 @@ def _tree(skeleton: Skeleton) -> tuple[Longs, Longs]:
 def _write_obj(content: _Content, stream: BinaryIO) -> None:
     """Write vertices, a line for each branch, and a point for each node without a branch."""
     skeleton = content.skeleton
-    for x, y, z in skeleton.points.tolist():
-        stream.write(f"v {x:.17g} {y:.17g} {z:.17g}\n".encode("ascii"))
+    write_rows(stream, "v %.17g %.17g %.17g\n", skeleton.points)
     for branch in skeleton.branches:
         stream.write(
             ("l " + " ".join(str(row + 1) for row in branch.tolist()) + "\n").encode("ascii")
         )
-    for row in np.setdiff1d(skeleton.nodes, skeleton.branch_points).tolist():
-        stream.write(b"p %d\n" % (row + 1))
+    write_rows(stream, "p %d\n", np.setdiff1d(skeleton.nodes, skeleton.branch_points) + 1)
 
 
 def _write_json(content: _Content, stream: BinaryIO) -> None:

@@ -33,31 +33,18 @@ Distances = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, eq=False)
 class OffsetPlaces:
-    """Moves of the vertices of a sheet to one of its walls.
+    """Moves of the vertices of a sheet to one of its walls."""
 
-    Parameters
-    ----------
-    moves : (v, 3) float64
-        No two of these ways cross, but the ends of those that are tight may touch each other.
-    tight : (v,) bool
-        The vertices that would not have room at the end of their straight way, and those beside them.
-    """
-
+    # (v, 3) No two of these ways cross, but the ends of those that are tight may touch each other
     moves: Floats
+    # (v,) The vertices that would not have room at the end of their straight way, and those beside them
     tight: Flags
 
 
 def offset_places(points: Floats, triangles: Ints, wall: float, progress: Progress) -> OffsetPlaces:
-    """Return how the vertices of a sheet move to a wall in front of its faces.
+    """Return how the (v, 3) vertices of a sheet move to a wall in front of its (m, 3) triangles.
 
-    Parameters
-    ----------
-    points : (v, 3) float64
-    triangles : (m, 3) int32
-        Counter-clockwise as seen from the side of the wall.
-    wall : float
-        How thick it is; 0 moves nothing.
-    progress : Progress
+    These turn counter-clockwise as seen from the side of the wall. A wall of 0 moves nothing.
     """
     if not wall > 0.0:
         return OffsetPlaces(np.zeros_like(points), np.zeros(len(points), bool))

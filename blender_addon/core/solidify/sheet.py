@@ -18,22 +18,12 @@ from ..thickness.face_lengths import first_rows
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """Faces as a sheet.
+    """Faces as a sheet."""
 
-    Parameters
-    ----------
-    points : (v, 3) float64
-        Vertices with the same coordinates are one.
-    triangles : (m, 3) int32
-        As seen from the front; every side has one other triangle at most, which passes it the other way.
-    row : (v,) int64
-        The rows of the vertices in the points of the shape.
-    warnings : tuple of str
-    """
-
-    points: Floats
+    points: Floats  # (v, 3) Vertices with the same coordinates are one
+    # (m, 3) As seen from the front; every side has one other triangle at most, which passes it the other way
     triangles: Ints
-    row: Longs
+    row: Longs  # (v,) The rows of the vertices in the points of the shape
     warnings: tuple[str, ...]
 
 

@@ -25,35 +25,16 @@ from .sheet import Sheet, rim_sides, sheet_of
 
 @dataclass(frozen=True, eq=False)
 class Solidified(TriangleFaces):
-    """A solid that was made of a sheet.
+    """A solid that was made of a sheet."""
 
-    Parameters
-    ----------
-    vertices : (2 v, 3) float64
-        The vertices of the sheet on the front wall, then on the back wall, in the frame of the shape.
-    triangles : (f, 3) int32
-        Outward: the front, the back, and the strips along the rims.
-    walls : (2 v,) float32
-        How thick the wall is at each vertex.
-    wall : float
-        The wall that was asked for.
-    least : float
-        The least wall at a vertex or in the middle of a triangle.
-    without_room : float
-        The share of the sheet where the wall is more than two percent thinner.
-    crossings : int
-        Pairs of triangles that pass through each other; 0 unless the sheet passes through itself.
-    volume : float
-    warnings : tuple of str
-    seconds : float
-    """
-
+    # (2 v, 3) The vertices of the sheet on the front wall, then on the back wall, in the frame of the shape
     vertices: Floats
-    triangles: Ints
-    walls: Floats
-    wall: float
-    least: float
-    without_room: float
+    triangles: Ints  # (f, 3) Outward: the front, the back, and the strips along the rims
+    walls: Floats  # (2 v,) float32, how thick the wall is at each vertex
+    wall: float  # The wall that was asked for
+    least: float  # The least wall at a vertex or in the middle of a triangle
+    without_room: float  # The share of the sheet where the wall is more than two percent thinner
+    # Pairs of triangles that pass through each other; 0 unless the sheet passes through itself
     crossings: int
     volume: float
     warnings: tuple[str, ...]

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
-from ..portable_cosine import cosine
+from ..portable_angle import cosine
 from ..samples.chosen import ChosenSamples
 from ..samples.walls import Walls
 from ..settings import Between
 from ..shape.shape import Shape
-from ..shape.triangles import unit_normals
+from ..shape.triangles import equal_pairs, side_keys, unit_normals
 from ..small_matrices import dot
 
 # A way through the solid counts where it is shorter than this share of the measured length.
@@ -163,11 +163,7 @@ def _acute_edges(shape: Shape) -> Floats:
     normals, _ = unit_normals(shape.points[triangles])
     corners = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
     face = np.repeat(np.arange(len(triangles)), 3)
-    keys = corners.min(axis=1) * len(shape.points) + corners.max(axis=1)
-    order = np.argsort(keys, kind="stable")
-    pairs = order[:-1], order[1:]
-    same = keys[pairs[0]] == keys[pairs[1]]
-    first, second = pairs[0][same], pairs[1][same]
+    first, second = equal_pairs(side_keys(triangles, len(shape.points)).ravel())
     a, b = face[first], face[second]
     ends = shape.points[corners[first]]
     turned = dot(normals[a], normals[b])

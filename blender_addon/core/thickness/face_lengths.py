@@ -20,10 +20,9 @@ from ..samples.analysed import Sides
 from ..samples.buried_samples import bounding_share
 from ..samples.sample_spacing import first_pass
 from ..settings import Between, Edges, Noise, SamplingMode, Settings, SidesFrom, ThicknessSettings
-from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.solid_faces import sharp_angle_of
-from ..shape.triangles import side_keys, unit_normals
+from ..shape.triangles import equal_pairs, side_keys, unit_normals
 from ..united import united
 from .bounded_lengths import MeasuredSurface
 from .close_walls import rounding_of
@@ -61,12 +60,7 @@ class _Balls:
 def are_enough(shape: Shape, settings: Settings, wanted: ThicknessSettings) -> bool:
     """Whether the faces alone determine the thickness: they are closed, and all of them bound the solid.
 
-    Parameters
-    ----------
-    shape : Shape
-        With faces that look outward.
-    settings : Settings
-    wanted : ThicknessSettings
+    The faces look outward.
     """
     plain = wanted.between is Between.WALL and wanted.noise is Noise.CLEAN
     by_faces = settings.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
@@ -140,10 +134,9 @@ def lengths_by_faces(
 
 def first_rows(points: Floats) -> Longs:
     """(n,) the first row with the coordinates of each."""
-    place = same_place(points)
-    first = np.empty(place.max(initial=-1) + 1, np.int64)
-    first[place[::-1]] = np.arange(len(points))[::-1]
-    return first[place]
+    places = points + 0.0  # -0.0 is 0.0
+    _, first, place = np.unique(places, axis=0, return_index=True, return_inverse=True)
+    return first[place.reshape(-1)]
 
 
 def longest_piece(shape: Shape, settings: Settings) -> float:
@@ -350,7 +343,5 @@ def _joined(fine: FineFaces, across: int) -> Longs:
     """(f,) the lowest row of the triangles that are joined to each across edges of kinds up to one."""
     keys = side_keys(fine.triangles, len(fine.points)).ravel()
     open_to = np.flatnonzero((fine.kinds <= across).ravel())
-    order = open_to[np.argsort(keys[open_to], kind="stable")]
-    same = keys[order[:-1]] == keys[order[1:]]
-    pairs = np.column_stack((order[:-1][same], order[1:][same])) // 3
+    pairs = open_to[np.column_stack(equal_pairs(keys[open_to]))] // 3
     return united(len(fine.triangles), pairs)

@@ -11,27 +11,15 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints, Longs
 from ..samples.walls import Walls
 from ..shape.shape import Shape
+from ..shape.triangles import unit_normals
 from ..small_matrices import times
 
 
 def face_pieces(shape: Shape, some: NDArray[np.intp], places: Walls) -> tuple[Floats, Ints, Ints]:
     """Cut some faces into congruent pieces, each about as large as an equilateral triangle between samples.
 
-    Parameters
-    ----------
-    shape : Shape
-    some : (k,) int
-        Distinct faces, each with a place.
-    places : Walls
-        The spacing of the samples on the faces.
-
-    Returns
-    -------
-    points : (n, 3) float64
-    triangles : (p, 3) int32
-        Rows of the points; they turn as their faces do.
-    faces : (p,) int32
-        The face of each piece.
+    The (k,) faces are distinct, and each has a place, where the spacing of the samples is known. Returns (n, 3) points,
+    (p, 3) triangles that turn as their faces do, and (p,) the face of each.
     """
     cuts = _cuts(shape, some, places)
     points, triangles, of_pieces, count = [], [], [], 0
@@ -53,8 +41,7 @@ def face_pieces(shape: Shape, some: NDArray[np.intp], places: Walls) -> tuple[Fl
 
 def _cuts(shape: Shape, faces: NDArray[np.intp], places: Walls) -> Longs:
     """(m,) the number of parts into which each side of a face is cut."""
-    a, b, c = shape.points[shape.triangles[faces]].transpose(1, 0, 2)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    area = unit_normals(shape.points[shape.triangles[faces]])[1] / 2
     count = len(shape.triangles)
     total = np.bincount(places.faces, places.spacing, count)
     spacing = total[faces] / np.bincount(places.faces, minlength=count)[faces]

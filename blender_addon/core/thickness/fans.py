@@ -64,15 +64,9 @@ class Fans:
 
 
 def fans_of(points: Floats, triangles: Ints, sharp: Ints) -> Fans:
-    """The fans of triangles.
+    """The fans of (m, 3) triangles, which look outward; those that meet have the same rows there.
 
-    Parameters
-    ----------
-    points : (v, 3) float64
-    triangles : (m, 3) int32
-        Outward; triangles that meet have the same rows there.
-    sharp : (e, 2) int32
-        The ends of the sharp edges, in any order.
+    The (e, 2) ends of the sharp edges are in any order.
     """
     label = united(triangles.size, _corners_beside(triangles, sharp, len(points)))
     first, fan = np.unique(label, return_inverse=True)

@@ -20,22 +20,12 @@ _Part = tuple[Flags, tuple[NDArray[Any], ...], tuple[NDArray[Any], ...]]
 
 @dataclass(frozen=True, eq=False)
 class FineFaces:
-    """Triangles that are pieces of faces.
+    """Triangles that are pieces of faces."""
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-        The vertices of the faces, then the middles of edges.
-    triangles : (f, 3) int32
-    faces : (f,) int32
-        The face in which each triangle lies.
-    kinds : (f, 3) int8
-        Of the edge from each corner to the next: 0, or what the edge of the faces had of which it is a part.
-    """
-
-    points: Floats
-    triangles: Ints
-    faces: Ints
+    points: Floats  # (n, 3) The vertices of the faces, then the middles of edges
+    triangles: Ints  # (f, 3)
+    faces: Ints  # (f,) The face in which each triangle lies
+    # (f, 3) Of the edge from each corner to the next: 0, or what the edge of the faces had of which it is a part
     kinds: NDArray[np.int8]
 
     def edges(self) -> Ints:

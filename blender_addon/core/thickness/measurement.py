@@ -23,42 +23,22 @@ from .thin_faces import face_of_triangles, thinnest_of_faces
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """A measured shape; limits are applied later.
-
-    Parameters
-    ----------
-    shape : Shape
-    chosen : ChosenSamples or MeasuredFaces
-    settings : ThicknessSettings
-        The settings of the measurement; the limit is not used here.
-    surface : MeasuredSurface
-        The samples and the triangles between them with the thickness or the gap, and pieces of faces where the axis
-        missed a wall.
-    measured : (k,) bool
-        The length was measured at the sample itself; else it comes from the nearest sample, or is infinite.
-    normals : str
-        A sentence about the source of the normals.
-    noise : float
-        The standard deviation of the samples in spacings, 0 to 0.25.
-    warnings : tuple of str
-    seconds : float
-    walls : CloseWalls
-        Places whose opposite wall is closer than the measured lengths show.
-    key : str
-        The name of the measurement for `kept_measurement`.
-    """
+    """A measured shape; limits are applied later."""
 
     shape: Shape
     chosen: ChosenSamples | MeasuredFaces
-    settings: ThicknessSettings
+    settings: ThicknessSettings  # The settings of the measurement; the limit is not used here
+    # The samples and the triangles between them with the thickness or the gap, and pieces of faces where the axis
+    # missed a wall
     surface: MeasuredSurface
+    # (k,) The length was measured at the sample itself; else it comes from the nearest sample, or is infinite
     measured: Flags
-    normals: str
-    noise: float
+    normals: str  # A sentence about the source of the normals
+    noise: float  # The standard deviation of the samples in spacings, 0 to 0.25
     warnings: tuple[str, ...]
     seconds: float
-    walls: CloseWalls
-    key: str = ""
+    walls: CloseWalls  # Places whose opposite wall is closer than the measured lengths show
+    key: str = ""  # The name of the measurement for `kept_measurement`
 
     @property
     def samples(self) -> int:

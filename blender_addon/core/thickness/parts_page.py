@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..axis.colours import colours
-from ..files.whole_file import write_whole
+from ..files.writing import write_whole
 from ..samples.density import share_text
 from ..settings import Between
 from ..small_matrices import placed

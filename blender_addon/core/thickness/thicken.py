@@ -46,25 +46,13 @@ _FARTHEST = 3.0  # times the largest gain: no vertex moves farther; chosen: unse
 
 @dataclass(frozen=True, eq=False)
 class Thickened:
-    """A shape with thicker walls.
+    """A shape with thicker walls."""
 
-    Parameters
-    ----------
-    moves : (v, 3) float64
-        How far each vertex of `before.shape` moves.
-    before, after : Measurement
-    left : ThinParts
-        What is thinner than the limit afterwards.
-    gap : float
-        The narrowest gap that kept walls from gaining all that they lack; infinite where there is none.
-    warnings : tuple of str
-    seconds : float
-    """
-
-    moves: Floats
+    moves: Floats  # (v, 3) How far each vertex of `before.shape` moves
     before: Measurement
     after: Measurement
-    left: ThinParts
+    left: ThinParts  # The parts that are thinner than the limit afterwards
+    # The narrowest gap that kept walls from gaining all that they lack; infinite where there is none
     gap: float
     warnings: tuple[str, ...]
     seconds: float
@@ -197,21 +185,13 @@ def _left_over(left: ThinParts, moved: bool, met: bool) -> tuple[str, ...]:
     """Say why something is still thin: other walls were in the way, a step helps nothing, or vertices are missing."""
     if not left.told:
         return ()
-    share, least = percent(left.share), left.patches[0].minimum
+    why = "tips and edges that taper stay, and coarse faces need a subdivision"
     if met:
-        return (
-            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: make room between the "
-            "walls, or take a smaller limit",
-        )
-    if not moved:
-        return (
-            f"{share} of the surface is still thinner than the limit, down to {least:.3g}: nothing moved, as a step "
-            "would make more of it thin; take a smaller limit",
-        )
-    return (
-        f"{share} of the surface is still thinner than the limit, down to {least:.3g}: tips and edges that taper stay, "
-        "and coarse faces need a subdivision",
-    )
+        why = "make room between the walls, or take a smaller limit"
+    elif not moved:
+        why = "nothing moved, as a step would make more of it thin; take a smaller limit"
+    share, least = percent(left.share), left.patches[0].minimum
+    return (f"{share} of the surface is still thinner than the limit, down to {least:.3g}: {why}",)
 
 
 class _Walls:

@@ -50,19 +50,9 @@ _PAGE = """<!doctype html>
 
 
 def page_of(found: Measurement, parts: ThinParts, title: str, unit: str, points: Floats) -> str:
-    """Return the page.
+    """Return the page about what has a title; `points` are those of the measured surface in the world, (n, 3).
 
-    Parameters
-    ----------
-    found : Measurement
-    parts : ThinParts
-        Its thin parts.
-    title : str
-        The name of what was measured.
-    unit : str
-        The unit of lengths, "" if it is unknown.
-    points : (n, 3) float64
-        The points of the measured surface in the world.
+    The unit of lengths is "" if it is unknown.
     """
     scale = scale_of(found, parts.limit)
     rgb = colours(scale.positions(found.lengths), 0.0, 1.0)[:, :3].astype(np.float64)

@@ -15,14 +15,7 @@ def face_of_triangles(triangles: Ints, at_edge: Flags, faces: Ints | None) -> In
 
     Corners on sharp edges lie in two faces and do not count.
 
-    Parameters
-    ----------
-    triangles : (f, 3) int32
-        The measured surface, rows of the samples.
-    at_edge : (n,) bool
-        Samples on a sharp edge.
-    faces : (n,) int32 or None
-        The face on which each sample lies; -1 where there is none.
+    The (f, 3) triangles are rows of samples, which lie on (n,) faces; -1 where there is none.
     """
     if faces is None:
         return np.full(len(triangles), -1, np.int32)
@@ -42,19 +35,8 @@ def thinnest_of_faces(
     For a face without such a triangle it is the thinnest triangle at the sample nearest to the middle of the face, and
     -1 for all faces where there is no measured surface. Triangles without corners on sharp edges are preferred.
 
-    Parameters
-    ----------
-    shape : Shape
-    points : (n, 3) float64
-        The samples.
-    triangles : (f, 3) int32
-        The measured surface, rows of the samples.
-    lengths : (f,) float64
-        The thickness of each triangle.
-    at_edge : (n,) bool
-        Samples on a sharp edge.
-    inside : (f,) int32
-        As `face_of_triangles` returns it.
+    The measured surface has (n, 3) samples, some of them at sharp edges, and (f, 3) triangles with lengths; `inside` is
+    as `face_of_triangles` returns it.
     """
     faces = shape.triangles
     thinnest = np.full(len(faces), -1, np.int32)

@@ -18,9 +18,7 @@ import numpy as np
 
 from ..arrays import Flags, Floats
 from ..axis.colours import colours
-from ..files.extensions import extension_of
-from ..files.json_figures import known
-from ..files.whole_file import write_whole
+from ..files.writing import extension_of, known, ply_places, write_ply, write_rows, write_whole
 from ..shape.nearness import same_place
 from ..small_matrices import placed
 from .measurement import Measurement
@@ -28,8 +26,6 @@ from .picture import encoded
 from .thickness_colours import scale_of
 from .thickness_page import page_of
 from .thin_parts import ThinParts
-
-_CHUNK = 1 << 16  # this many rows are formatted at once
 
 
 def export_thickness(
@@ -111,16 +107,7 @@ def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: 
     filled = np.append(found.are_filled[found.row_of_vertices], found.are_filled[beside])
     vertices = np.arange(len(points))
     vertices[len(found.shape.points) :] = -1
-    for start in range(0, len(points), _CHUNK):
-        part = slice(start, start + _CHUNK)
-        rows = np.column_stack([points[part], lengths[part], filled[part]]).tolist()
-        text = "".join(
-            f"{vertex},{x:.17g},{y:.17g},{z:.17g},{length:.17g},{of_others:.0f}\n"
-            for vertex, (x, y, z, length, of_others) in zip(
-                vertices[part].tolist(), rows, strict=True
-            )
-        )
-        stream.write(text.encode("ascii"))
+    write_rows(stream, "%d,%.17g,%.17g,%.17g,%.17g,%.0f\n", vertices, points, lengths, filled)
 
 
 def _beside_vertices(found: Measurement) -> Flags:
@@ -137,34 +124,20 @@ def _write_json(found: Measurement, parts: ThinParts, labels: _Labels, stream: B
 
 def _write_ply(found: Measurement, parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
     """Write the measured surface: its samples and triangles, with lengths, colours and patches."""
-    header = f"""ply
-format binary_little_endian 1.0
-comment thickness: length at each vertex, inf where there is none; patch of each face, -1 where it is not thin
-element vertex {len(found.points)}
-property double x
-property double y
-property double z
-property double thickness
-property uchar red
-property uchar green
-property uchar blue
-element face {len(found.triangles)}
-property list uchar int vertex_indices
-property int patch
-end_header
-"""
-    stream.write(header.encode("ascii"))
-    vertices = np.empty(
-        len(found.points), [("place", "<f8", 3), ("thickness", "<f8"), ("colour", "u1", 3)]
-    )
-    vertices["place"], vertices["thickness"] = _mover(found)(found.points), found.lengths
     positions = scale_of(found, parts.limit).positions(found.lengths)
     linear = colours(positions, 0.0, 1.0)[:, :3].astype(np.float64)
-    vertices["colour"] = np.round(255.0 * encoded(linear)).astype(np.uint8)
-    stream.write(vertices.tobytes())
-    faces = np.empty(len(found.triangles), [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")])
-    faces["n"], faces["corners"], faces["patch"] = 3, found.triangles, parts.patch_of_triangles
-    stream.write(faces.tobytes())
+    rgb = np.round(255.0 * encoded(linear)).astype(np.uint8).T
+    vertices = {
+        **ply_places(_mover(found)(found.points)),
+        "thickness": ("<f8", found.lengths),
+        **{name: ("u1", one) for name, one in zip(("red", "green", "blue"), rgb, strict=True)},
+    }
+    of_faces = {"patch": ("<i4", parts.patch_of_triangles)}
+    comment = (
+        "comment thickness: length at each vertex, inf where there is none; patch of each face, -1 where it is not "
+        "thin\n"
+    )
+    write_ply(stream, vertices, found.triangles, of_faces, comment)
 
 
 def _write_html(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:
