@@ -8,7 +8,7 @@ import argparse
 from .. import __version__
 from ..core.batch.option_words import add_options
 from ..core.machine.memory_limit import MemoryLimit
-from ..core.products.product import Product
+from ..core.products.product import PRODUCTS, Product
 from ..core.settings import Division
 
 _CODES = {
@@ -19,6 +19,9 @@ _CODES = {
     4: "cancelled",
     141: "nobody reads the results any more",
 }
+_OTHERS = f"""
+results besides the axis, each with its own --help:
+  medial_axis {" | ".join(filter(None, PRODUCTS))}"""
 
 
 def parser_of(word: str, record: type[Product]) -> argparse.ArgumentParser:
@@ -30,7 +33,7 @@ def parser_of(word: str, record: type[Product]) -> argparse.ArgumentParser:
         usage=f"{name} INPUT [INPUT ...] OUTPUT [options]",
         description=record.description,
         epilog="\n".join(
-            [record.help, "exit codes:", *(f"  {code:<5}{what}" for code, what in codes)]
+            [record.help, "exit codes:", *(f"  {code:<5}{what}" for code, what in codes), _OTHERS]
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,

@@ -24,6 +24,7 @@ from medial_axis.core.files.write import export_axis
 from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Choice, Switch
 from medial_axis.core.products import axis as axis_work
+from medial_axis.core.products.product import PRODUCTS
 from medial_axis.core.settings import (
     OPTIONS,
     Settings,
@@ -122,6 +123,7 @@ def test_options_are_those_of_settings(capsys):
     flags = set(re.findall(r"^  --([a-z-]+)", text, re.MULTILINE))
     assert {name.replace("_", "-") for name in OPTIONS} <= flags
     assert "medial_axis bunny.ply bunny.ma" in text and "exit codes:" in text
+    assert set(PRODUCTS) - {""} <= set(text[text.index("results besides") :].split())
 
 
 @pytest.mark.parametrize("name", OPTIONS)

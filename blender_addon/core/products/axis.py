@@ -41,9 +41,6 @@ INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend a
 OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), or a folder; {name} is
           the object or the file, {file} the file, #### the frame.
 
-Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help,
-medial_axis midsurface --help, medial_axis hollow --help, medial_axis robot --help
-
 examples:
   medial_axis bunny.ply bunny.ma
   medial_axis bunny.ply hand.obj axes/ --format ply --theta 30 --side both
