@@ -11,6 +11,7 @@
 #include "base/patches.h"
 #include "base/point_tree.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "bindings.h"
 #include "docstrings.h"
 #include "inside/surface.h"
@@ -23,11 +24,8 @@ py::array patches_of(const py::object& triangles, const py::object& wanted, int6
   const Triangles faces(triangles);
   const auto flags = flags_of(wanted, "wanted");
   const auto rows = faces.span();
-  if (flags.size() != rows.size()) {
-    throw InvalidInputError("Expected one flag per triangle, found " +
-                            std::to_string(flags.size()) + " for " + std::to_string(rows.size()) +
-                            " triangles; pass all of them.");
-  }
+  require_one_each(flags.size(), rows.size(), "one flag per triangle",
+                   "triangles; pass all of them");
   require_corners(rows, static_cast<size_t>(std::max<int64_t>(vertices, 0)));
   return array_of(released([&] { return patches(rows, flags, static_cast<size_t>(vertices)); }));
 }
@@ -45,13 +43,6 @@ py::array nearest_rows(const py::object& sites, const py::object& queries) {
                  [&](int64_t i) { result[i] = sites_tree.nearest(at[i]).id; });
     return result;
   }));
-}
-
-void require_places(size_t wanted, size_t found, const char* name) {
-  if (wanted == found) return;
-  throw InvalidInputError("Expected one row of " + std::string(name) + " per point, found " +
-                          std::to_string(found) + " for " + std::to_string(wanted) +
-                          " points; pass all of them.");
 }
 
 void require_faces(std::span<const int32_t> face, size_t count) {
@@ -105,9 +96,13 @@ struct GivenPlaces {
                rounding} {
     if (!normals.is_none()) places.normals = directions.emplace(normals, "normals").span();
     const size_t count = places.points.size();
-    if (directions) require_places(count, places.normals.size(), "normals");
-    require_places(count, places.triangle.size(), "face");
-    require_places(count, places.spacing.size(), "spacing");
+    if (directions)
+      require_one_each(places.normals.size(), count, "one row of normals per point",
+                       "points; pass all of them");
+    require_one_each(places.triangle.size(), count, "one row of face per point",
+                     "points; pass all of them");
+    require_one_each(places.spacing.size(), count, "one row of spacing per point",
+                     "points; pass all of them");
     require_finite(places.points, "point");
     require_faces(places.triangle, faces.triangles());
   }
