@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // This binds queries about triangulated surfaces and polygons that need no analysis.
 #include "arrays.h"
-#include "base/polygon_areas.h"
 #include "base/polygon_edges.h"
 #include "base/rounding.h"
 #include "base/rows.h"
