@@ -723,7 +723,7 @@ MUTATIONS = (
         "walks turn back at edges",
     ),
     Mutation(
-        "sampling/mirrored_rows.cpp",
+        "sampling/poisson_disk.h",
         "!(away < std::min(disk.radius, disks[j].radius))",
         "!(away < 0.5 * std::min(disk.radius, disks[j].radius))",
         "mirrored pairs stay though they have no room",

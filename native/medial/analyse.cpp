@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stages of an analysis, one after the other.
 #include "analysis_parts.h"
+#include "base/text.h"
 #include "cocone/labelled_poles.h"
 #include "cocone/watertight_surface.h"
 
@@ -243,11 +244,8 @@ class Stages {
 
 // One per row, finite, and not all zero.
 void require_normals(std::span<const Vec3> normals, size_t rows) {
-  if (normals.size() != rows) {
-    throw InvalidInputError("Expected one normal per point, found " +
-                            std::to_string(normals.size()) + " for " + std::to_string(rows) +
-                            " points; pass all of them or none.");
-  }
+  require_one_each(normals.size(), rows, "one normal per point",
+                   "points; pass all of them or none");
   require_finite(normals, "normal");
   if (std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return n == Vec3{}; })) {
     throw InvalidInputError(

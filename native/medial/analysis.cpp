@@ -3,6 +3,7 @@
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "cocone/solid.h"
 #include "cocone/watertight_surface.h"
 #include "inside/doubts.h"
@@ -44,11 +45,9 @@ std::vector<double> outward_lengths(std::vector<double> lengths, const Frame& fr
 
 // There is one row, or -1, per point, or none at all.
 void require_partners(std::span<const int32_t> partners, size_t points) {
-  if (!partners.empty() && partners.size() != points) {
-    throw InvalidInputError("Expected one partner per point, found " +
-                            std::to_string(partners.size()) + " for " + std::to_string(points) +
-                            " points; pass all of them or none.");
-  }
+  if (!partners.empty())
+    require_one_each(partners.size(), points, "one partner per point",
+                     "points; pass all of them or none");
   for (const int32_t row : partners) {
     if (row >= -1 && row < static_cast<int64_t>(points)) continue;
     throw InvalidInputError("Expected partners from -1 to below " + std::to_string(points) +
@@ -57,18 +56,11 @@ void require_partners(std::span<const int32_t> partners, size_t points) {
 }
 
 void require_reaches(std::span<const double> reach, size_t points) {
-  if (reach.size() != points) {
-    throw InvalidInputError("Expected one reach per point, found " + std::to_string(reach.size()) +
-                            " for " + std::to_string(points) + " points; pass all of them.");
-  }
+  require_one_each(reach.size(), points, "one reach per point", "points; pass all of them");
 }
 
 void require_valid(const FacesInput& faces, size_t points) {
-  if (faces.face.size() != points) {
-    throw InvalidInputError("Expected a face per point, found " +
-                            std::to_string(faces.face.size()) + " for " + std::to_string(points) +
-                            " points; pass -1 for none.");
-  }
+  require_one_each(faces.face.size(), points, "a face per point", "points; pass -1 for none");
   const auto count = static_cast<int64_t>(faces.triangles.size());
   for (const int32_t face : faces.face) {
     if (face >= -1 && face < count) continue;
@@ -214,11 +206,9 @@ WallThickness MedialAnalysis::thickness(const ThicknessInput& input,
   require_solid(*parts_);
   const size_t rows = parts_->samples.point_of_row.size();
   if (options.mode != ThicknessMode::scan) require_normals(input.normals, rows);
-  if (input.at_edge && input.at_edge->size() != rows) {
-    throw InvalidInputError("Expected edges as one flag per point, found " +
-                            std::to_string(input.at_edge->size()) + " for " + std::to_string(rows) +
-                            " points; pass all of them or none.");
-  }
+  if (input.at_edge)
+    require_one_each(input.at_edge->size(), rows, "edges as one flag per point",
+                     "points; pass all of them or none");
   begin_stage(progress, "Thickness", 0, 1);
   auto found = medial::thickness(input, options, parts_->samples, facets_of(*parts_),
                                  {parts_->threads, progress});

@@ -11,6 +11,7 @@
 #include <climits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/stopwatch.h"
@@ -60,28 +61,35 @@ class Points {
   py::array_t<double, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// This takes an (m, 3) integer array as triangles: a view if it is C-contiguous int32, else a
-// checked copy.
-class Triangles {
+// How messages name an array of ids, and the least of these.
+struct IdWords {
+  const char *name, *expected, *ids, *remedy;
+  long long least;
+};
+
+// This takes an integer array as rows of ids, or None for none: a view if it is C-contiguous int32,
+// else a checked copy.
+template <size_t columns>
+class IdRows {
  public:
-  explicit Triangles(const py::handle& object) {
+  IdRows(const py::handle& object, const IdWords& words) {
     if (object.is_none()) return;
-    const py::array view = checked_rows(object, "triangles", 3, "iu", "an (m, 3) int32 array");
+    const py::array view = checked_rows(object, words.name, columns, "iu", words.expected);
     if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
-      const auto low = view.attr("min")().cast<long long>(),
-                 high = view.attr("max")().cast<long long>();
-      if (low < INT_MIN || high > INT_MAX) {
-        throw InvalidInputError("Expected triangle corners that fit an int32, found " +
-                                std::to_string(low < INT_MIN ? low : high) +
-                                "; rebuild the faces.");
+      const auto low = view.attr("min")().cast<long long>();
+      const auto high = view.attr("max")().cast<long long>();
+      if (low < words.least || high > INT_MAX) {
+        throw InvalidInputError(
+            "Expected " + std::string(words.ids) + " that fit an int32, found " +
+            std::to_string(low < words.least ? low : high) + "; " + words.remedy + ".");
       }
     }
     rows_ = py::array_t<int32_t, py::array::c_style | py::array::forcecast>::ensure(view);
   }
 
-  std::span<const std::array<int32_t, 3>> span() const {
+  std::span<const std::array<int32_t, columns>> span() const {
     if (rows_.ndim() != 2) return {};
-    return {reinterpret_cast<const std::array<int32_t, 3>*>(rows_.data()),
+    return {reinterpret_cast<const std::array<int32_t, columns>*>(rows_.data()),
             static_cast<size_t>(rows_.shape(0))};
   }
 
@@ -89,31 +97,17 @@ class Triangles {
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// This takes an (e, 2) integer array of marked edges, or None for none.
-class EdgeRows {
- public:
-  explicit EdgeRows(const py::object& object) {
-    if (object.is_none()) return;
-    const py::array view = checked_rows(object, "sharp_edges", 2, "iu", "an (e, 2) int32 array");
-    if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
-      const auto low = view.attr("min")().cast<long long>();
-      const auto high = view.attr("max")().cast<long long>();
-      if (low < 0 || high > INT_MAX) {
-        throw InvalidInputError("Expected rows of sharp_edges that fit an int32, found " +
-                                std::to_string(low < 0 ? low : high) + "; mark the edges again.");
-      }
-    }
-    rows_ = py::array_t<int32_t, py::array::c_style | py::array::forcecast>::ensure(view);
-  }
+struct Triangles : IdRows<3> {
+  explicit Triangles(const py::handle& object)
+      : IdRows(object, {"triangles", "an (m, 3) int32 array", "triangle corners",
+                        "rebuild the faces", INT_MIN}) {}
+};
 
-  std::span<const std::array<int32_t, 2>> span() const {
-    if (rows_.ndim() != 2) return {};
-    return {reinterpret_cast<const std::array<int32_t, 2>*>(rows_.data()),
-            static_cast<size_t>(rows_.shape(0))};
-  }
-
- private:
-  py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
+// Marked edges.
+struct EdgeRows : IdRows<2> {
+  explicit EdgeRows(const py::handle& object)
+      : IdRows(object, {"sharp_edges", "an (e, 2) int32 array", "rows of sharp_edges",
+                        "mark the edges again", 0}) {}
 };
 
 // Returns a view of the caller's column. Other types, and arrays that are not contiguous, would
@@ -138,12 +132,36 @@ inline std::span<const uint8_t> flags_of(const py::object& flags, const char* na
   return {reinterpret_cast<const uint8_t*>(view.data()), view.size()};
 }
 
-// Returns rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis
-// for one).
-template <typename Scalar, typename Rows>
+// Returns the rows of edges that Python owns.
+inline std::span<const Edge> edges_of(const py::object& edges, const char* name = "edges",
+                                      const char* shape = "(w, 2)") {
+  using Rows = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Rows>(edges) || py::cast<Rows>(edges).ndim() != 2 ||
+      py::cast<Rows>(edges).shape(1) != 2) {
+    throw InvalidInputError("Expected " + std::string(name) + " as a contiguous " + shape +
+                            " int32 array, found " + describe(edges) + "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Rows>(edges);
+  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
+}
+
+// The type of the numbers in a row: a Vec3, an array such as an Edge, an enum, or a number itself.
+template <typename Row>
+struct NumberIn
+    : std::conditional_t<std::is_enum_v<Row>, std::underlying_type<Row>, std::type_identity<Row>> {
+};
+template <>
+struct NumberIn<Vec3> : std::type_identity<double> {};
+template <typename T, size_t columns>
+struct NumberIn<std::array<T, columns>> : std::type_identity<T> {};
+
+// Returns rows as a read-only array with one column per number in a row (no second axis for one).
+// The numbers may be of another type of the same size: flags are bool.
+template <typename Number = void, typename Rows>
 py::array view_of(const Rows& rows, const py::handle& owner) {
-  using T = typename Rows::value_type;
-  constexpr auto columns = static_cast<py::ssize_t>(sizeof(T) / sizeof(Scalar));
+  using Row = typename Rows::value_type;
+  using Scalar = std::conditional_t<std::is_void_v<Number>, typename NumberIn<Row>::type, Number>;
+  constexpr auto columns = static_cast<py::ssize_t>(sizeof(Row) / sizeof(Scalar));
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size())};
   if (columns > 1) shape.push_back(columns);
   py::array_t<Scalar> array(shape, reinterpret_cast<const Scalar*>(rows.data()), owner);
@@ -151,41 +169,43 @@ py::array view_of(const Rows& rows, const py::handle& owner) {
   return array;
 }
 
-// Makes a property that is a view of a vector inside the object.
-template <typename Scalar, typename Owner, typename Rows>
-auto view_property(Rows Owner::*member) {
-  return [member](const py::object& self) {
-    return view_of<Scalar>(self.cast<const Owner&>().*member, self);
+// Adds a property that is a view of a vector inside the object.
+template <typename Number = void, typename Class, typename Owner, typename Rows>
+void add_view(Class& c, const char* name, Rows Owner::*member, const char* doc) {
+  const auto view = [member](const py::object& self) {
+    return view_of<Number>(self.cast<const Owner&>().*member, self);
   };
+  c.def_property_readonly(name, view, doc);
 }
 
 // Hands a result over to Python.
-template <typename Scalar, typename Rows>
+template <typename Number = void, typename Rows>
 py::array array_of(Rows rows) {
   auto* kept = new Rows(std::move(rows));
   const py::capsule owner(kept, [](void* p) { delete static_cast<Rows*>(p); });
-  return view_of<Scalar>(*kept, owner);
+  return view_of<Number>(*kept, owner);
 }
 
-// Returns the rows of edges that Python owns.
-inline std::span<const Edge> edges_of(const py::object& edges) {
-  using Rows = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Rows>(edges) || py::cast<Rows>(edges).ndim() != 2 ||
-      py::cast<Rows>(edges).shape(1) != 2) {
-    throw InvalidInputError("Expected edges as a contiguous (w, 2) int32 array, found " +
-                            describe(edges) + "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Rows>(edges);
-  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
+// Hands several results over, each as an array.
+template <typename... Rows>
+py::tuple arrays_of(Rows... rows) {
+  return py::make_tuple(array_of(std::move(rows))...);
 }
 
-// Returns the values of an enum, each as an int32.
-template <typename Values>
+// Returns the values of an enum, each as a T.
+template <typename T = int32_t, typename Values>
 py::array numbers_of(const Values& values) {
-  std::vector<int32_t> numbers;
+  std::vector<T> numbers;
   numbers.reserve(values.size());
-  for (const auto value : values) numbers.push_back(static_cast<int32_t>(value));
-  return array_of<int32_t>(std::move(numbers));
+  for (const auto value : values) numbers.push_back(static_cast<T>(value));
+  return array_of(std::move(numbers));
+}
+
+// Does some work while other threads of Python may run.
+template <typename Work>
+auto released(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
 }
 
 inline py::dict seconds(const Timings& timings) {

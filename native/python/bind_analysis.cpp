@@ -9,7 +9,6 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "docstrings.h"
-#include "faces_argument.h"
 
 namespace medial::python {
 namespace {
@@ -21,6 +20,33 @@ std::optional<Points> optional_points(const py::object& rows, const char* name) 
 std::optional<std::span<const int32_t>> optional_ids(const py::object& ids, const char* name) {
   return ids.is_none() ? std::optional<std::span<const int32_t>>() : ids_of(ids, name);
 }
+
+// The faces of a hierarchy. Keeps the arrays that the input of the core refers to.
+class FacesArgument {
+ public:
+  FacesArgument(const py::object& vertices, const py::object& triangles, const py::object& face,
+                double sharp_angle, const py::object& sharp_edges, bool smooth)
+      : vertices_(vertices, "vertices"),
+        triangles_(triangles),
+        face_object_(face),
+        face_(ids_of(face, "face")),
+        sharp_edges_(sharp_edges),
+        sharp_angle_(sharp_angle),
+        smooth_(smooth) {}
+
+  FacesInput input() const {
+    return {vertices_.span(), triangles_.span(), face_, sharp_angle_, sharp_edges_.span(), smooth_};
+  }
+
+ private:
+  Points vertices_;
+  Triangles triangles_;
+  py::object face_object_;
+  std::span<const int32_t> face_;
+  EdgeRows sharp_edges_;
+  double sharp_angle_;
+  bool smooth_;
+};
 
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
                                         const py::object& vertices, const py::object& normals,
@@ -98,40 +124,34 @@ void bind_faces(py::module_& m) {
 }
 
 void bind_mesh(py::module_& m) {
-  py::class_<MedialMesh>(m, "MedialMesh", docs::MedialMesh, py::is_final(), py::module_local())
-      .def_property_readonly("vertices", view_property<double>(&MedialMesh::vertices),
-                             docs::MedialMesh_vertices)
-      .def_property_readonly("radius", view_property<double>(&MedialMesh::radius),
-                             docs::MedialMesh_radius)
-      .def_property_readonly("face_offsets", view_property<int32_t>(&MedialMesh::face_offsets),
-                             docs::MedialMesh_face_offsets)
-      .def_property_readonly("face_vertices", view_property<int32_t>(&MedialMesh::face_vertices),
-                             docs::MedialMesh_face_vertices)
-      .def_property_readonly("theta", view_property<double>(&MedialMesh::theta),
-                             docs::MedialMesh_theta)
-      .def_property_readonly("rho", view_property<double>(&MedialMesh::rho), docs::MedialMesh_rho)
-      .def_property_readonly(
-          "side", [](const MedialMesh& mesh) { return numbers_of(mesh.side); },
-          docs::MedialMesh_side)
-      .def_property_readonly("generators", view_property<int32_t>(&MedialMesh::generators),
-                             docs::MedialMesh_generators)
-      .def_property_readonly("edges", view_property<int32_t>(&MedialMesh::edges),
-                             docs::MedialMesh_edges)
+  py::class_<MedialMesh> c(m, "MedialMesh", docs::MedialMesh, py::is_final(), py::module_local());
+  add_view(c, "vertices", &MedialMesh::vertices, docs::MedialMesh_vertices);
+  add_view(c, "radius", &MedialMesh::radius, docs::MedialMesh_radius);
+  add_view(c, "face_offsets", &MedialMesh::face_offsets, docs::MedialMesh_face_offsets);
+  add_view(c, "face_vertices", &MedialMesh::face_vertices, docs::MedialMesh_face_vertices);
+  add_view(c, "theta", &MedialMesh::theta, docs::MedialMesh_theta);
+  add_view(c, "rho", &MedialMesh::rho, docs::MedialMesh_rho);
+  add_view(c, "generators", &MedialMesh::generators, docs::MedialMesh_generators);
+  add_view(c, "edges", &MedialMesh::edges, docs::MedialMesh_edges);
+  c.def_property_readonly(
+       "side", [](const MedialMesh& mesh) { return numbers_of(mesh.side); }, docs::MedialMesh_side)
       .def_readonly("unbounded", &MedialMesh::unbounded, docs::MedialMesh_unbounded)
       .def_readonly("zero_area", &MedialMesh::zero_area, docs::MedialMesh_zero_area)
       .def_readonly("rings", &MedialMesh::rings, docs::MedialMesh_rings);
 }
 
+// Makes a property of what a function of the analysis returns.
+template <typename Number = void, typename Rows>
+auto found_property(Rows (MedialAnalysis::*member)() const) {
+  return [member](const MedialAnalysis& a) { return array_of<Number>((a.*member)()); };
+}
+
 auto theta_property(Rule rule) {
-  return [rule](const MedialAnalysis& a) { return array_of<double>(a.theta(rule)); };
+  return [rule](const MedialAnalysis& a) { return array_of(a.theta(rule)); };
 }
 
 auto rho_property(Rule rule) {
-  return [rule](const MedialAnalysis& a) { return array_of<double>(a.rho(rule)); };
-}
-
-py::array bounded(const MedialAnalysis& a) {
-  return array_of<uint8_t>(a.edges_bounded()).attr("view")("bool");
+  return [rule](const MedialAnalysis& a) { return array_of(a.rho(rule)); };
 }
 
 }  // namespace
@@ -154,15 +174,13 @@ void bind_analysis(py::module_& m) {
            py::arg("sides") = SidesFrom::automatic, py::arg("cocone") = py::none(),
            py::arg("bounding_sphere") = false, py::arg("progress") = nullptr,
            py::arg("threads") = 0)
-      .def_property_readonly(
-          "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
-          docs::MedialAnalysis_samples)
+      .def_property_readonly("samples", found_property(&MedialAnalysis::sample_rows),
+                             docs::MedialAnalysis_samples)
       .def_property_readonly("bytes", &MedialAnalysis::bytes, docs::MedialAnalysis_bytes)
       .def_property_readonly("duplicates", &MedialAnalysis::duplicates,
                              docs::MedialAnalysis_duplicates)
-      .def_property_readonly(
-          "edges", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_rows()); },
-          docs::MedialAnalysis_edges)
+      .def_property_readonly("edges", found_property(&MedialAnalysis::edge_rows),
+                             docs::MedialAnalysis_edges)
       .def_property_readonly("theta", theta_property(Rule::either), docs::MedialAnalysis_theta)
       .def_property_readonly("rho", rho_property(Rule::either), docs::MedialAnalysis_rho)
       .def_property_readonly("theta_both", theta_property(Rule::both),
@@ -181,7 +199,8 @@ void bind_analysis(py::module_& m) {
             return std::const_pointer_cast<WatertightSurface>(a.tight_cocone());
           },
           docs::MedialAnalysis_tight_cocone)
-      .def_property_readonly("bounded", &bounded, docs::MedialAnalysis_bounded)
+      .def_property_readonly("bounded", found_property<bool>(&MedialAnalysis::edges_bounded),
+                             docs::MedialAnalysis_bounded)
       .def_property_readonly("closed", &MedialAnalysis::closed, docs::MedialAnalysis_closed)
       .def_property_readonly("boundary_edges", &MedialAnalysis::boundary_edges,
                              docs::MedialAnalysis_boundary_edges)
@@ -189,20 +208,16 @@ void bind_analysis(py::module_& m) {
       .def_property_readonly(
           "timings", [](const MedialAnalysis& a) { return seconds(a.timings()); },
           docs::MedialAnalysis_timings)
-      .def_property_readonly(
-          "spacing", [](const MedialAnalysis& a) { return array_of<double>(a.spacing()); },
-          docs::MedialAnalysis_spacing)
+      .def_property_readonly("spacing", found_property(&MedialAnalysis::spacing),
+                             docs::MedialAnalysis_spacing)
       .def(
           "feature_size",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
              const py::object& rows, Progress* progress) {
             const auto chosen = optional_ids(rows, "rows");
-            std::vector<double> sizes;
-            {
-              const py::gil_scoped_release release;
-              sizes = a.feature_size({theta, rho, rule, criteria}, chosen, progress);
-            }
-            return array_of<double>(std::move(sizes));
+            return array_of(released([&] {
+              return a.feature_size({theta, rho, rule, criteria}, chosen, progress);
+            }));
           },
           docs::MedialAnalysis_feature_size, py::arg("theta") = paper.theta,
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
@@ -221,29 +236,18 @@ void bind_analysis(py::module_& m) {
              Progress* progress) {
             const Points corners(vertices, "vertices"), directions(normals, "normals");
             const Triangles faces(triangles);
-            Doubts found;
-            {
-              const auto corner_span = corners.span(), direction_span = directions.span();
-              const auto face_span = faces.span();
-              const std::span<const double> reaches(reach.data(),
-                                                    static_cast<size_t>(reach.size()));
-              const py::gil_scoped_release release;
-              found = a.doubts(corner_span, face_span, direction_span, reaches, progress);
-            }
-            return py::make_tuple(array_of<double>(std::move(found.places)),
-                                  array_of<double>(std::move(found.gaps)));
+            const std::span<const double> reaches(reach.data(), static_cast<size_t>(reach.size()));
+            auto found = released([&] {
+              return a.doubts(corners.span(), faces.span(), directions.span(), reaches, progress);
+            });
+            return arrays_of(std::move(found.places), std::move(found.gaps));
           },
           docs::MedialAnalysis_doubts, py::arg("vertices"), py::arg("triangles"),
           py::arg("normals"), py::arg("reach"), py::kw_only(), py::arg("progress") = nullptr)
       .def(
           "solid_triangles",
           [](const MedialAnalysis& a) {
-            std::vector<Triangle> triangles;
-            {
-              const py::gil_scoped_release release;
-              triangles = a.solid_triangles();
-            }
-            return array_of<int32_t>(std::move(triangles));
+            return array_of(released([&] { return a.solid_triangles(); }));
           },
           docs::MedialAnalysis_solid_triangles)
       .def(
@@ -267,12 +271,8 @@ void bind_analysis(py::module_& m) {
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,
              Criteria criteria, bool limit_set) {
-            std::vector<int32_t> ids;
-            {
-              const py::gil_scoped_release release;
-              ids = a.select(extraction(theta, rho, side, rule, criteria, limit_set));
-            }
-            return array_of<int32_t>(std::move(ids));
+            const auto wanted = extraction(theta, rho, side, rule, criteria, limit_set);
+            return array_of(released([&] { return a.select(wanted); }));
           },
           docs::MedialAnalysis_select, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
           py::arg("side") = Side::both, py::arg("rule") = paper.rule,

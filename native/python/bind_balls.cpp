@@ -48,23 +48,17 @@ py::tuple capsules_round_groups(const py::object& places, const py::object& grou
   const Points rows(places, "places");
   const auto groups = ids_of(group, "group");
   const int wanted = thread_argument(threads);
-  LeastCapsules found;
-  {
-    const py::gil_scoped_release release;
-    found = least_capsules(rows.span(), groups, count, tapered, wanted);
-  }
-  return py::make_tuple(array_of<double>(std::move(found.ends)),
-                        array_of<double>(std::move(found.radii)));
+  LeastCapsules found =
+      released([&] { return least_capsules(rows.span(), groups, count, tapered, wanted); });
+  return arrays_of(std::move(found.ends), std::move(found.radii));
 }
 
 void bind_capsules(py::module_& m) {
-  py::class_<CapsuleCover>(m, "CapsuleCover", docs::CapsuleCover, py::is_final(),
-                           py::module_local())
-      .def_property_readonly("ends", view_property<double>(&CapsuleCover::ends),
-                             docs::CapsuleCover_ends)
-      .def_property_readonly("radii", view_property<double>(&CapsuleCover::radii),
-                             docs::CapsuleCover_radii)
-      .def_readonly("held", &CapsuleCover::held, docs::CapsuleCover_held)
+  py::class_<CapsuleCover> c(m, "CapsuleCover", docs::CapsuleCover, py::is_final(),
+                             py::module_local());
+  add_view(c, "ends", &CapsuleCover::ends, docs::CapsuleCover_ends);
+  add_view(c, "radii", &CapsuleCover::radii, docs::CapsuleCover_radii);
+  c.def_readonly("held", &CapsuleCover::held, docs::CapsuleCover_held)
       .def_readonly("outside", &CapsuleCover::outside, docs::CapsuleCover_outside)
       .def_readonly("farthest", &CapsuleCover::farthest, docs::CapsuleCover_farthest)
       .def_readonly("places", &CapsuleCover::places, docs::CapsuleCover_places)
@@ -85,14 +79,11 @@ void bind_balls(py::module_& m) {
   py::enum_<CoverMode>(m, "CoverMode", py::module_local(), docs::CoverMode)
       .value("INSIDE", CoverMode::inside, docs::CoverMode_INSIDE)
       .value("AROUND", CoverMode::around, docs::CoverMode_AROUND);
-  py::class_<BallCover>(m, "BallCover", docs::BallCover, py::is_final(), py::module_local())
-      .def_property_readonly("chosen", view_property<int32_t>(&BallCover::chosen),
-                             docs::BallCover_chosen)
-      .def_property_readonly("radii", view_property<double>(&BallCover::radii),
-                             docs::BallCover_radii)
-      .def_property_readonly("covered", view_property<double>(&BallCover::covered),
-                             docs::BallCover_covered)
-      .def_readonly("held", &BallCover::held, docs::BallCover_held)
+  py::class_<BallCover> c(m, "BallCover", docs::BallCover, py::is_final(), py::module_local());
+  add_view(c, "chosen", &BallCover::chosen, docs::BallCover_chosen);
+  add_view(c, "radii", &BallCover::radii, docs::BallCover_radii);
+  add_view(c, "covered", &BallCover::covered, docs::BallCover_covered);
+  c.def_readonly("held", &BallCover::held, docs::BallCover_held)
       .def_readonly("outside", &BallCover::outside, docs::BallCover_outside)
       .def_readonly("farthest", &BallCover::farthest, docs::BallCover_farthest)
       .def_readonly("places", &BallCover::places, docs::BallCover_places)

@@ -28,14 +28,9 @@ py::tuple reduced(const py::object& vertices, const py::object& radius, const py
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
   const ReduceOptions options{most, thread_argument(threads)};
-  SphereMesh result;
-  {
-    const py::gil_scoped_release release;
-    result = reduce(mesh, options, progress);
-  }
-  return py::make_tuple(
-      array_of<double>(std::move(result.vertices)), array_of<double>(std::move(result.radius)),
-      array_of<int32_t>(std::move(result.triangles)), array_of<int32_t>(std::move(result.wires)));
+  SphereMesh result = released([&] { return reduce(mesh, options, progress); });
+  return arrays_of(std::move(result.vertices), std::move(result.radius),
+                   std::move(result.triangles), std::move(result.wires));
 }
 
 py::object sheets(const py::object& vertices, const py::object& radius, const py::object& triangles,
@@ -46,45 +41,27 @@ py::object sheets(const py::object& vertices, const py::object& radius, const py
                            column_of<int32_t>(nodes, "nodes", "(n,) int32"), shortest};
   const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
   const ReduceOptions options{most, thread_argument(threads)};
-  std::optional<SheetMesh> found;
-  {
-    const py::gil_scoped_release release;
-    found = reduce_sheets(mesh, labels, options, progress);
-  }
+  auto found = released([&] { return reduce_sheets(mesh, labels, options, progress); });
   if (!found) return py::none();
-  SheetMesh& result = *found;
-  return py::make_tuple(
-      array_of<double>(std::move(result.vertices)), array_of<double>(std::move(result.radius)),
-      array_of<int32_t>(std::move(result.row)), array_of<int32_t>(std::move(result.face_offsets)),
-      array_of<int32_t>(std::move(result.face_vertices)), array_of<int32_t>(std::move(result.part)),
-      array_of<int32_t>(std::move(result.wires)));
+  return arrays_of(std::move(found->vertices), std::move(found->radius), std::move(found->row),
+                   std::move(found->face_offsets), std::move(found->face_vertices),
+                   std::move(found->part), std::move(found->wires));
 }
 
 py::array distances(const py::object& queries, const py::object& vertices, const py::object& radius,
                     const py::object& triangles, const py::object& edges, Progress* progress,
                     int threads) {
   const Points asked(queries, "queries");
-  const auto at = asked.span();
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const int count = thread_argument(threads);
-  std::vector<double> result;
-  {
-    const py::gil_scoped_release release;
-    result = solid_distances(at, mesh, count, progress);
-  }
-  return array_of<double>(std::move(result));
+  return array_of(released([&] { return solid_distances(asked.span(), mesh, count, progress); }));
 }
 
 py::array surface(const py::object& vertices, const py::object& radius, const py::object& triangles,
                   const py::object& edges, double spacing, Progress* progress, int threads) {
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const int count = thread_argument(threads);
-  Column<Vec3> result;
-  {
-    const py::gil_scoped_release release;
-    result = solid_surface(mesh, spacing, count, progress);
-  }
-  return array_of<double>(std::move(result));
+  return array_of(released([&] { return solid_surface(mesh, spacing, count, progress); }));
 }
 
 }  // namespace

@@ -68,11 +68,9 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
   options.pairs = pairs;
   options.seed = static_cast<uint64_t>(seed);
   const int team = thread_argument(threads);
-  const auto point_span = points.span();
-  const auto face_span = faces.span();
   const py::gil_scoped_release release;
   return std::make_shared<SurfaceSamples>(
-      sample_surface(point_span, face_span, options, team, progress));
+      sample_surface(points.span(), faces.span(), options, team, progress));
 }
 
 std::vector<Disk> disks_of(const Points& points, const Points& normals, const FloatArray& radius) {
@@ -105,16 +103,11 @@ py::tuple close_openings(const py::object& points, const py::object& normals,
   const Points corners(vertices, "vertices");
   const Triangles faces(triangles);
   const Run run{thread_count(thread_argument(threads)), progress};
-  ClosingSamples samples;
-  {
-    const auto corner_span = corners.span();
-    const auto face_span = faces.span();
-    const py::gil_scoped_release release;
-    samples = closing_samples(corner_span, face_span, kept, static_cast<uint64_t>(seed), run);
-  }
-  return py::make_tuple(array_of<double>(std::move(samples.points)),
-                        array_of<double>(std::move(samples.normals)),
-                        array_of<double>(std::move(samples.radius)));
+  ClosingSamples samples = released([&] {
+    return closing_samples(corners.span(), faces.span(), kept, static_cast<uint64_t>(seed), run);
+  });
+  return arrays_of(std::move(samples.points), std::move(samples.normals),
+                   std::move(samples.radius));
 }
 
 }  // namespace
@@ -128,25 +121,18 @@ void bind_sampling(py::module_& m) {
       .value("SURFACE", SampleKind::surface, docs::SampleKind_SURFACE)
       .value("OPENING", SampleKind::opening, docs::SampleKind_OPENING);
   using S = SurfaceSamples;
-  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", docs::SurfaceSamples, py::is_final(),
-                                    py::module_local())
-      .def_property_readonly("points", view_property<double>(&S::points),
-                             docs::SurfaceSamples_points)
-      .def_property_readonly("normals", view_property<double>(&S::normals),
-                             docs::SurfaceSamples_normals)
-      .def_property_readonly("triangle", view_property<int32_t>(&S::triangle),
-                             docs::SurfaceSamples_triangle)
-      .def_property_readonly("barycentric", view_property<double>(&S::barycentric),
-                             docs::SurfaceSamples_barycentric)
-      .def_property_readonly("kind", view_property<int32_t>(&S::kind), docs::SurfaceSamples_kind)
-      .def_property_readonly("radius", view_property<double>(&S::radius),
-                             docs::SurfaceSamples_radius)
-      .def_property_readonly("partner", view_property<int32_t>(&S::partner),
-                             docs::SurfaceSamples_partner)
-      .def_property_readonly("bend", view_property<double>(&S::bend), docs::SurfaceSamples_bend)
-      .def_property_readonly("sharp_edges", view_property<int32_t>(&S::sharp_edges),
-                             docs::SurfaceSamples_sharp_edges)
-      .def_readonly("area", &S::area, docs::SurfaceSamples_area);
+  py::class_<S, std::shared_ptr<S>> c(m, "SurfaceSamples", docs::SurfaceSamples, py::is_final(),
+                                      py::module_local());
+  add_view(c, "points", &S::points, docs::SurfaceSamples_points);
+  add_view(c, "normals", &S::normals, docs::SurfaceSamples_normals);
+  add_view(c, "triangle", &S::triangle, docs::SurfaceSamples_triangle);
+  add_view(c, "barycentric", &S::barycentric, docs::SurfaceSamples_barycentric);
+  add_view(c, "kind", &S::kind, docs::SurfaceSamples_kind);
+  add_view(c, "radius", &S::radius, docs::SurfaceSamples_radius);
+  add_view(c, "partner", &S::partner, docs::SurfaceSamples_partner);
+  add_view(c, "bend", &S::bend, docs::SurfaceSamples_bend);
+  add_view(c, "sharp_edges", &S::sharp_edges, docs::SurfaceSamples_sharp_edges);
+  c.def_readonly("area", &S::area, docs::SurfaceSamples_area);
   m.def("sample_surface", &sample, docs::sample_surface, py::arg("vertices"), py::arg("triangles"),
         py::kw_only(), py::arg("count") = py::none(), py::arg("spacing") = py::none(),
         py::arg("sizing") = py::none(), py::arg("sharp_angle") = SamplingOptions{}.sharp_angle,

@@ -28,12 +28,8 @@ py::array smooth(const py::object& points, const py::object& normals, const Surf
                  Progress* progress, int threads) {
   const Points rows(points, "points"), directions(normals, "normals");
   const int wanted = thread_argument(threads);
-  std::vector<Vec3> moved;
-  {
-    const py::gil_scoped_release release;
-    moved = smooth_vertices(rows.span(), directions.span(), measured, wanted, progress);
-  }
-  return array_of<double>(std::move(moved));
+  return array_of(released(
+      [&] { return smooth_vertices(rows.span(), directions.span(), measured, wanted, progress); }));
 }
 
 PreparedScan prepare(const py::object& points, const ScanMeasure& measured, bool move,
@@ -47,23 +43,20 @@ PreparedScan prepare(const py::object& points, const ScanMeasure& measured, bool
 }  // namespace
 
 void bind_scan(py::module_& m) {
-  py::class_<ScanMeasure>(m, "ScanMeasure", docs::ScanMeasure, py::is_final(), py::module_local())
-      .def_readonly("spacing", &ScanMeasure::spacing, docs::ScanMeasure_spacing)
+  py::class_<ScanMeasure> c(m, "ScanMeasure", docs::ScanMeasure, py::is_final(),
+                            py::module_local());
+  add_view(c, "outliers", &ScanMeasure::outliers, docs::ScanMeasure_outliers);
+  c.def_readonly("spacing", &ScanMeasure::spacing, docs::ScanMeasure_spacing)
       .def_readonly("noise", &ScanMeasure::noise, docs::ScanMeasure_noise)
       .def_readonly("kurtosis", &ScanMeasure::kurtosis, docs::ScanMeasure_kurtosis)
       .def_readonly("mates", &ScanMeasure::mates, docs::ScanMeasure_mates)
       .def_readonly("duplicates", &ScanMeasure::duplicates, docs::ScanMeasure_duplicates)
-      .def_property_readonly("outliers", view_property<int32_t>(&ScanMeasure::outliers),
-                             docs::ScanMeasure_outliers)
       .def_readonly("border", &ScanMeasure::border, docs::ScanMeasure_border);
-  py::class_<PreparedScan>(m, "PreparedScan", docs::PreparedScan, py::is_final(),
-                           py::module_local())
-      .def_property_readonly("rows", view_property<int32_t>(&PreparedScan::rows),
-                             docs::PreparedScan_rows)
-      .def_property_readonly("points", view_property<double>(&PreparedScan::points),
-                             docs::PreparedScan_points)
-      .def_property_readonly("moved", view_property<double>(&PreparedScan::moved),
-                             docs::PreparedScan_moved);
+  py::class_<PreparedScan> prepared(m, "PreparedScan", docs::PreparedScan, py::is_final(),
+                                    py::module_local());
+  add_view(prepared, "rows", &PreparedScan::rows, docs::PreparedScan_rows);
+  add_view(prepared, "points", &PreparedScan::points, docs::PreparedScan_points);
+  add_view(prepared, "moved", &PreparedScan::moved, docs::PreparedScan_moved);
   m.def("measure_scan", &measure, docs::measure_scan, py::arg("points"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
   py::class_<SurfaceNoise>(m, "SurfaceNoise", docs::SurfaceNoise, py::is_final(),

@@ -13,15 +13,7 @@ namespace medial::python {
 namespace {
 
 std::span<const Edge> pairs_of(const py::object& pairs, const char* name) {
-  using Rows = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Rows>(pairs) || py::cast<Rows>(pairs).ndim() != 2 ||
-      py::cast<Rows>(pairs).shape(1) != 2) {
-    throw InvalidInputError("Expected " + std::string(name) +
-                            " as a contiguous (n, 2) int32 array, found " + describe(pairs) +
-                            "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Rows>(pairs);
-  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
+  return edges_of(pairs, name, "(n, 2)");
 }
 
 Structure structure(const py::object& vertices, const py::object& radius,
@@ -76,23 +68,12 @@ py::tuple patches_of_surface(const py::object& vertices, const py::object& trian
     kinds = kinds_of(kind);
     places = {points->span(), kinds, ids_of(triangle, "triangle")};
   }
-  const auto vertex_span = rows.span();
-  const auto face_span = faces.span();
   const int team = thread_argument(threads);
-  SurfacePatches found;
-  {
-    const py::gil_scoped_release release;
-    found = surface_patches(vertex_span, face_span, points ? &places : nullptr, sharp_angle, marked,
-                            team);
-  }
-  return py::make_tuple(array_of<int32_t>(std::move(found.of_triangle)),
-                        array_of<int32_t>(std::move(found.of_sample)));
-}
-
-// Makes a property of a column of enums, as numbers.
-template <typename Values>
-auto number_property(Values Structure::*member) {
-  return [member](const Structure& s) { return numbers_of(s.*member); };
+  SurfacePatches found = released([&] {
+    return surface_patches(rows.span(), faces.span(), points ? &places : nullptr, sharp_angle,
+                           marked, team);
+  });
+  return arrays_of(std::move(found.of_triangle), std::move(found.of_sample));
 }
 
 void bind_kinds(py::module_& m) {
@@ -115,45 +96,27 @@ void bind_kinds(py::module_& m) {
 void bind_structure(py::module_& m) {
   bind_kinds(m);
   using S = Structure;
-  py::class_<S>(m, "Structure", docs::Structure, py::is_final(), py::module_local())
-      .def_property_readonly("part", view_property<int32_t>(&S::part), docs::Structure_part)
-      .def_property_readonly(
-          "turned",
-          [](const py::object& self) {
-            return view_of<uint8_t>(self.cast<const S&>().turned, self).attr("view")("bool");
-          },
-          docs::Structure_turned)
-      .def_property_readonly("edges", view_property<int32_t>(&S::edges), docs::Structure_edges)
-      .def_property_readonly("seam", number_property(&S::seam), docs::Structure_seam)
-      .def_property_readonly("curve", view_property<int32_t>(&S::curve), docs::Structure_curve)
-      .def_property_readonly("kind", number_property(&S::kind), docs::Structure_kind)
-      .def_property_readonly("part_patches", view_property<int32_t>(&S::part_patches),
-                             docs::Structure_part_patches)
-      .def_property_readonly("part_area", view_property<double>(&S::part_area),
-                             docs::Structure_part_area)
-      .def_property_readonly("part_mean_radius", view_property<double>(&S::part_mean_radius),
-                             docs::Structure_part_mean_radius)
-      .def_property_readonly("part_least_radius", view_property<double>(&S::part_least_radius),
-                             docs::Structure_part_least_radius)
-      .def_property_readonly("curve_kind", number_property(&S::curve_kind),
-                             docs::Structure_curve_kind)
-      .def_property_readonly("curve_length", view_property<double>(&S::curve_length),
-                             docs::Structure_curve_length)
-      .def_property_readonly("curve_mean_radius", view_property<double>(&S::curve_mean_radius),
-                             docs::Structure_curve_mean_radius)
-      .def_property_readonly("curve_least_radius", view_property<double>(&S::curve_least_radius),
-                             docs::Structure_curve_least_radius)
-      .def_property_readonly("curve_part_offsets", view_property<int32_t>(&S::curve_part_offsets),
-                             docs::Structure_curve_part_offsets)
-      .def_property_readonly("curve_parts", view_property<int32_t>(&S::curve_parts),
-                             docs::Structure_curve_parts)
-      .def_property_readonly("node_kind", number_property(&S::node_kind), docs::Structure_node_kind)
-      .def_property_readonly("node_vertex", view_property<int32_t>(&S::node_vertex),
-                             docs::Structure_node_vertex)
-      .def_property_readonly("node_curve_offsets", view_property<int32_t>(&S::node_curve_offsets),
-                             docs::Structure_node_curve_offsets)
-      .def_property_readonly("node_curves", view_property<int32_t>(&S::node_curves),
-                             docs::Structure_node_curves);
+  py::class_<S> c(m, "Structure", docs::Structure, py::is_final(), py::module_local());
+  add_view(c, "part", &S::part, docs::Structure_part);
+  add_view<bool>(c, "turned", &S::turned, docs::Structure_turned);
+  add_view(c, "edges", &S::edges, docs::Structure_edges);
+  add_view(c, "seam", &S::seam, docs::Structure_seam);
+  add_view(c, "curve", &S::curve, docs::Structure_curve);
+  add_view(c, "kind", &S::kind, docs::Structure_kind);
+  add_view(c, "part_patches", &S::part_patches, docs::Structure_part_patches);
+  add_view(c, "part_area", &S::part_area, docs::Structure_part_area);
+  add_view(c, "part_mean_radius", &S::part_mean_radius, docs::Structure_part_mean_radius);
+  add_view(c, "part_least_radius", &S::part_least_radius, docs::Structure_part_least_radius);
+  add_view(c, "curve_kind", &S::curve_kind, docs::Structure_curve_kind);
+  add_view(c, "curve_length", &S::curve_length, docs::Structure_curve_length);
+  add_view(c, "curve_mean_radius", &S::curve_mean_radius, docs::Structure_curve_mean_radius);
+  add_view(c, "curve_least_radius", &S::curve_least_radius, docs::Structure_curve_least_radius);
+  add_view(c, "curve_part_offsets", &S::curve_part_offsets, docs::Structure_curve_part_offsets);
+  add_view(c, "curve_parts", &S::curve_parts, docs::Structure_curve_parts);
+  add_view(c, "node_kind", &S::node_kind, docs::Structure_node_kind);
+  add_view(c, "node_vertex", &S::node_vertex, docs::Structure_node_vertex);
+  add_view(c, "node_curve_offsets", &S::node_curve_offsets, docs::Structure_node_curve_offsets);
+  add_view(c, "node_curves", &S::node_curves, docs::Structure_node_curves);
   m.def("structure", &structure, docs::structure, py::kw_only(), py::arg("vertices"),
         py::arg("radius"), py::arg("face_offsets"), py::arg("face_vertices"), py::arg("generators"),
         py::arg("wires"), py::arg("patches"), py::arg("spacing"), py::arg("threads") = 0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // This binds queries about triangulated surfaces and polygons that need no analysis.
 #include "arrays.h"
-#include "base/polygon_areas.h"
 #include "base/polygon_edges.h"
 #include "base/rounding.h"
 #include "base/rows.h"
@@ -30,22 +29,20 @@ Run all_cores() { return {thread_count(0), nullptr}; }
 int64_t count_open_edges(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  const auto row_span = rows.span();
-  const auto face_span = faces.span();
   const py::gil_scoped_release release;
-  return open_edges(row_span, face_span, all_cores());
+  return open_edges(rows.span(), faces.span(), all_cores());
 }
 
 py::object betti_of_solid(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  const auto betti = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    require_corners(face_span, row_span.size());
-    const Samples samples = distinct_rows(row_span, "point", all_cores());
-    return solid_betti(make_surface(face_span, samples.point_of_row, samples.count(), all_cores()),
-                       samples.points, all_cores());
-  }();
+  const auto betti = released([&] {
+    require_corners(faces.span(), rows.span().size());
+    const Samples samples = distinct_rows(rows.span(), "point", all_cores());
+    const medial::Surface surface =
+        make_surface(faces.span(), samples.point_of_row, samples.count(), all_cores());
+    return solid_betti(surface, samples.points, all_cores());
+  });
   if (!betti) return py::none();
   return py::make_tuple((*betti)[0], (*betti)[1], (*betti)[2]);
 }
@@ -55,27 +52,19 @@ py::tuple faces_of_solid(const py::object& points, const py::object& triangles, 
   const Points rows(points, "points");
   const Triangles faces(triangles);
   const Run run{thread_count(thread_argument(threads)), progress};
-  OutwardFaces found = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    return outward_faces(row_span, face_span, run);
-  }();
-  std::vector<uint8_t> reading;
-  reading.reserve(found.reading.size());
-  for (const FaceReading one : found.reading) reading.push_back(static_cast<uint8_t>(one));
-  return py::make_tuple(array_of<int32_t>(std::move(found.triangles)),
-                        array_of<uint8_t>(std::move(reading)), found.patches, found.unseen);
+  auto found = released([&] { return outward_faces(rows.span(), faces.span(), run); });
+  return py::make_tuple(array_of(std::move(found.triangles)), array_of(std::move(found.reading)),
+                        found.patches, found.unseen);
 }
 
 py::tuple wrapped_faces(const py::object& points, const py::object& triangles, double opening,
                         double distance, Progress* progress) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  Wrapping found = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    return wrap(row_span, face_span, opening, distance, {1, progress});
-  }();
-  return py::make_tuple(array_of<double>(std::move(found.rows)),
-                        array_of<int32_t>(std::move(found.triangles)));
+  auto found = released([&] {
+    return wrap(rows.span(), faces.span(), opening, distance, {1, progress});
+  });
+  return arrays_of(std::move(found.rows), std::move(found.triangles));
 }
 
 py::object even_triangles(const py::object& points, const py::object& triangles, double length,
@@ -86,56 +75,40 @@ py::object even_triangles(const py::object& points, const py::object& triangles,
     throw InvalidInputError("Expected a positive length of edges, found " + std::to_string(length) +
                             "; choose a larger one");
   }
-  std::optional<EvenSheet> found = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    require_corners(face_span, row_span.size());
-    return even_sheet(row_span, face_span, length, {1, progress});
-  }();
+  auto found = released([&] {
+    require_corners(faces.span(), rows.span().size());
+    return even_sheet(rows.span(), faces.span(), length, {1, progress});
+  });
   if (!found) return py::none();
-  return py::make_tuple(array_of<double>(std::move(found->rows)),
-                        array_of<int32_t>(std::move(found->given)),
-                        array_of<int32_t>(std::move(found->triangles)));
+  return arrays_of(std::move(found->rows), std::move(found->given), std::move(found->triangles));
 }
 
 py::tuple parts_of_mesh(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  MeshParts found = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    return mesh_parts(row_span, face_span, all_cores());
-  }();
-  return py::make_tuple(array_of<int32_t>(std::move(found.part)),
-                        array_of<bool>(std::move(found.open)),
+  auto found = released([&] { return mesh_parts(rows.span(), faces.span(), all_cores()); });
+  return py::make_tuple(array_of(std::move(found.part)), array_of<bool>(std::move(found.open)),
                         array_of<bool>(std::move(found.flat)));
 }
 
 py::tuple places_of_parts(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  auto [parts, places] = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    MeshParts found = mesh_parts(row_span, face_span, all_cores());
-    std::vector<uint8_t> kinds;
-    for (const PartPlace place : part_places(row_span, face_span, found, all_cores())) {
-      kinds.push_back(static_cast<uint8_t>(place));
-    }
+  auto [parts, places] = released([&] {
+    MeshParts found = mesh_parts(rows.span(), faces.span(), all_cores());
+    auto kinds = part_places(rows.span(), faces.span(), found, all_cores());
     return std::pair(std::move(found), std::move(kinds));
-  }();
-  return py::make_tuple(array_of<int32_t>(std::move(parts.part)),
-                        array_of<bool>(std::move(parts.open)),
-                        array_of<uint8_t>(std::move(places)));
+  });
+  return py::make_tuple(array_of(std::move(parts.part)), array_of<bool>(std::move(parts.open)),
+                        array_of(std::move(places)));
 }
 
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
                             int32_t vertices) {
   const auto offsets = ids_of(face_offsets, "face_offsets");
   const auto corners = ids_of(face_vertices, "face_vertices");
-  PolygonEdges edges = [&] {
-    const py::gil_scoped_release release;
-    return polygon_edges(offsets, corners, vertices, all_cores());
-  }();
-  return py::make_tuple(array_of<int32_t>(std::move(edges.ends)),
-                        array_of<int32_t>(std::move(edges.of_corner)));
+  auto edges = released([&] { return polygon_edges(offsets, corners, vertices, all_cores()); });
+  return arrays_of(std::move(edges.ends), std::move(edges.of_corner));
 }
 
 py::array areas_of_polygons(const py::object& points, const py::object& face_offsets,
@@ -143,11 +116,8 @@ py::array areas_of_polygons(const py::object& points, const py::object& face_off
   const Points rows(points, "points");
   const auto offsets = ids_of(face_offsets, "face_offsets");
   const auto corners = ids_of(face_vertices, "face_vertices");
-  auto doubled = [&, span = rows.span()] {
-    const py::gil_scoped_release release;
-    return doubled_areas(span, offsets, corners, all_cores());
-  }();
-  return array_of<double>(std::move(doubled));
+  return array_of(
+      released([&] { return doubled_areas(rows.span(), offsets, corners, all_cores()); }));
 }
 
 py::array triangles_of_polygons(const py::object& points, const py::object& face_offsets,
@@ -155,43 +125,34 @@ py::array triangles_of_polygons(const py::object& points, const py::object& face
   const Points rows(points, "points");
   const auto offsets = ids_of(face_offsets, "face_offsets");
   const auto corners = ids_of(face_vertices, "face_vertices");
-  auto triangles = [&, span = rows.span()] {
-    const py::gil_scoped_release release;
-    return polygon_triangles(span, offsets, corners, all_cores());
-  }();
-  return array_of<int32_t>(std::move(triangles));
+  return array_of(
+      released([&] { return polygon_triangles(rows.span(), offsets, corners, all_cores()); }));
 }
 
 py::array faces_that_cross(const py::object& points, const py::object& triangles, int64_t most) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  auto pairs = [&, row_span = rows.span(), face_span = faces.span()] {
-    const py::gil_scoped_release release;
-    return crossing_faces(row_span, face_span, most);
-  }();
-  return array_of<int32_t>(std::move(pairs));
+  return array_of(released([&] { return crossing_faces(rows.span(), faces.span(), most); }));
 }
 
 py::array winding_numbers(const py::object& queries, const py::object& vertices,
                           const py::object& triangles) {
   const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
   const Triangles faces(triangles);
-  const auto at = query_rows.span();
-  std::vector<double> result(at.size());
-  {
+  return array_of(released([&] {
+    const auto at = query_rows.span(), corners = vertex_rows.span();
+    const auto triples = faces.span();
     require_finite(at, "query");
-    const auto corners = vertex_rows.span();
     require_finite(corners, "vertex");
-    const auto face_span = faces.span();
-    const py::gil_scoped_release release;
-    require_corners(face_span, corners.size());
-    const auto fans = rows_containing(face_span, static_cast<int32_t>(corners.size()));
-    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()),
-                                nullptr);
+    require_corners(triples, corners.size());
+    const auto fans = rows_containing(triples, static_cast<int32_t>(corners.size()));
+    const auto boundary = boundary_edges(triples, fans, all_cores());
+    const WindingNumber winding(corners, triples, boundary, nullptr);
+    std::vector<double> result(at.size());
     parallel_for(static_cast<int64_t>(at.size()), all_cores(),
                  [&](int64_t i) { result[i] = winding(at[i]); });
-  }
-  return array_of<double>(std::move(result));
+    return result;
+  }));
 }
 
 py::array buried_points(const py::object& points, const py::object& normals, double offset,
@@ -201,15 +162,9 @@ py::array buried_points(const py::object& points, const py::object& normals, dou
       corners(vertices, "vertices");
   const Triangles faces(triangles);
   const Run run{thread_count(thread_argument(threads)), progress};
-  std::vector<uint8_t> result;
-  {
-    const auto row_span = rows.span(), direction_span = directions.span();
-    const auto corner_span = corners.span();
-    const auto face_span = faces.span();
-    const py::gil_scoped_release release;
-    result = buried(row_span, direction_span, offset, corner_span, face_span, run);
-  }
-  return array_of<uint8_t>(std::move(result)).attr("view")("bool");
+  return array_of<bool>(released([&] {
+    return buried(rows.span(), directions.span(), offset, corners.span(), faces.span(), run);
+  }));
 }
 
 py::array surface_distances(const py::object& queries, const py::object& vertices,
@@ -225,14 +180,13 @@ py::array surface_distances(const py::object& queries, const py::object& vertice
   if (face_span.empty()) {
     throw InvalidInputError("Expected at least one triangle, found none; pass a surface.");
   }
-  std::vector<double> result(at.size());
-  {
-    const py::gil_scoped_release release;
+  return array_of(released([&] {
     const TriangleTree tree(rows, face_span);
+    std::vector<double> result(at.size());
     parallel_for(static_cast<int64_t>(at.size()), run,
                  [&](int64_t i) { result[i] = tree.distance(at[i]); });
-  }
-  return array_of<double>(std::move(result));
+    return result;
+  }));
 }
 
 py::array distances_of_walls(const py::object& points, const py::object& normals,
@@ -243,16 +197,11 @@ py::array distances_of_walls(const py::object& points, const py::object& normals
       corners(vertices, "vertices");
   const Triangles faces(triangles);
   const Run run{thread_count(thread_argument(threads)), progress};
-  std::vector<double> result;
-  {
-    const auto row_span = rows.span(), direction_span = directions.span();
-    const auto corner_span = corners.span();
-    const auto face_span = faces.span();
-    const std::span<const double> reaches(reach.data(), static_cast<size_t>(reach.size()));
-    const py::gil_scoped_release release;
-    result = wall_distances(row_span, direction_span, reaches, corner_span, face_span, run);
-  }
-  return array_of<double>(std::move(result));
+  const std::span<const double> reaches(reach.data(), static_cast<size_t>(reach.size()));
+  return array_of(released([&] {
+    return wall_distances(rows.span(), directions.span(), reaches, corners.span(), faces.span(),
+                          run);
+  }));
 }
 
 }  // namespace

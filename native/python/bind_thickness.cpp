@@ -11,6 +11,7 @@
 #include "base/patches.h"
 #include "base/point_tree.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "bindings.h"
 #include "docstrings.h"
 #include "inside/surface.h"
@@ -23,41 +24,25 @@ py::array patches_of(const py::object& triangles, const py::object& wanted, int6
   const Triangles faces(triangles);
   const auto flags = flags_of(wanted, "wanted");
   const auto rows = faces.span();
-  if (flags.size() != rows.size()) {
-    throw InvalidInputError("Expected one flag per triangle, found " +
-                            std::to_string(flags.size()) + " for " + std::to_string(rows.size()) +
-                            " triangles; pass all of them.");
-  }
+  require_one_each(flags.size(), rows.size(), "one flag per triangle",
+                   "triangles; pass all of them");
   require_corners(rows, static_cast<size_t>(std::max<int64_t>(vertices, 0)));
-  std::vector<int32_t> result;
-  {
-    const py::gil_scoped_release release;
-    result = patches(rows, flags, static_cast<size_t>(vertices));
-  }
-  return array_of<int32_t>(std::move(result));
+  return array_of(released([&] { return patches(rows, flags, static_cast<size_t>(vertices)); }));
 }
 
 py::array nearest_rows(const py::object& sites, const py::object& queries) {
   const Points site_rows(sites, "sites"), query_rows(queries, "queries");
   const auto places = site_rows.span(), at = query_rows.span();
-  std::vector<int32_t> result(at.size(), -1);
-  {
-    const py::gil_scoped_release release;
+  return array_of(released([&] {
     require_finite(places, "site");
     require_finite(at, "query");
     const Run run{thread_count(0)};
     const PointTree sites_tree = PointTree::sorted(places, run);
+    std::vector<int32_t> result(at.size(), -1);
     parallel_for(static_cast<int64_t>(at.size()), run,
                  [&](int64_t i) { result[i] = sites_tree.nearest(at[i]).id; });
-  }
-  return array_of<int32_t>(std::move(result));
-}
-
-void require_places(size_t wanted, size_t found, const char* name) {
-  if (wanted == found) return;
-  throw InvalidInputError("Expected one row of " + std::string(name) + " per point, found " +
-                          std::to_string(found) + " for " + std::to_string(wanted) +
-                          " points; pass all of them.");
+    return result;
+  }));
 }
 
 void require_faces(std::span<const int32_t> face, size_t count) {
@@ -81,22 +66,21 @@ std::unique_ptr<Faces> faces_of(const py::object& vertices, const py::object& tr
 }
 
 py::tuple creases_of(const Faces& faces) {
-  std::vector<int32_t> ends;
+  std::vector<Edge> ends;
   std::vector<uint8_t> convex;
   const auto& edges = faces.creases().edges;
   for (size_t e = 0; e < edges.size(); ++e) {
     if (edges[e].crease == Crease::none) continue;
-    for (const int32_t end : edges[e].ends) ends.push_back(faces.mesh().row[end]);
+    const auto& [a, b] = edges[e].ends;
+    ends.push_back({faces.mesh().row[a], faces.mesh().row[b]});
     convex.push_back(faces.is_convex_crease(static_cast<int32_t>(e)));
   }
   std::vector<int32_t> corners;
   for (size_t p = 0; p < faces.creases().corner.size(); ++p) {
     if (faces.creases().corner[p]) corners.push_back(faces.mesh().row[p]);
   }
-  const auto count = static_cast<py::ssize_t>(convex.size());
-  return py::make_tuple(array_of<int32_t>(std::move(ends)).attr("reshape")(count, 2),
-                        array_of<uint8_t>(std::move(convex)).attr("view")("bool"),
-                        array_of<int32_t>(std::move(corners)));
+  return py::make_tuple(array_of(std::move(ends)), array_of<bool>(std::move(convex)),
+                        array_of(std::move(corners)));
 }
 
 // Places on faces, as they come from Python.
@@ -112,9 +96,13 @@ struct GivenPlaces {
                rounding} {
     if (!normals.is_none()) places.normals = directions.emplace(normals, "normals").span();
     const size_t count = places.points.size();
-    if (directions) require_places(count, places.normals.size(), "normals");
-    require_places(count, places.triangle.size(), "face");
-    require_places(count, places.spacing.size(), "spacing");
+    if (directions)
+      require_one_each(places.normals.size(), count, "one row of normals per point",
+                       "points; pass all of them");
+    require_one_each(places.triangle.size(), count, "one row of face per point",
+                     "points; pass all of them");
+    require_one_each(places.spacing.size(), count, "one row of spacing per point",
+                     "points; pass all of them");
     require_finite(places.points, "point");
     require_faces(places.triangle, faces.triangles());
   }
@@ -129,14 +117,8 @@ py::tuple balls_in_faces(const Faces& faces, const py::object& points, const py:
                          int threads) {
   const GivenPlaces given(faces, points, face, spacing, normals, rounding);
   const Run run{thread_count(thread_argument(threads)), progress};
-  InscribedBalls found;
-  {
-    const py::gil_scoped_release release;
-    found = inscribed_balls(faces, given.places, run);
-  }
-  return py::make_tuple(array_of<double>(std::move(found.diameter)),
-                        array_of<double>(std::move(found.wall)),
-                        array_of<double>(std::move(found.parallel)));
+  auto found = released([&] { return inscribed_balls(faces, given.places, run); });
+  return arrays_of(std::move(found.diameter), std::move(found.wall), std::move(found.parallel));
 }
 
 py::tuple rolled_in_faces(const Faces& faces, const py::object& points, const py::object& face,
@@ -144,13 +126,8 @@ py::tuple rolled_in_faces(const Faces& faces, const py::object& points, const py
                           Progress* progress, int threads) {
   const GivenPlaces given(faces, points, face, spacing, py::none(), rounding);
   const Run run{thread_count(thread_argument(threads)), progress};
-  InscribedBalls found;
-  {
-    const py::gil_scoped_release release;
-    found = rolled_balls(faces, given.places, run);
-  }
-  return py::make_tuple(array_of<double>(std::move(found.wall)),
-                        array_of<double>(std::move(found.parallel)));
+  auto found = released([&] { return rolled_balls(faces, given.places, run); });
+  return arrays_of(std::move(found.wall), std::move(found.parallel));
 }
 
 }  // namespace
@@ -160,17 +137,10 @@ void bind_thickness(py::module_& m) {
       .value("WALL", ThicknessMode::wall, docs::ThicknessMode_WALL)
       .value("BALL", ThicknessMode::ball, docs::ThicknessMode_BALL)
       .value("SCAN", ThicknessMode::scan, docs::ThicknessMode_SCAN);
-  py::class_<WallThickness>(m, "WallThickness", docs::WallThickness, py::is_final(),
-                            py::module_local())
-      .def_property_readonly("values", view_property<double>(&WallThickness::values),
-                             docs::WallThickness_values)
-      .def_property_readonly(
-          "measured",
-          [](const py::object& self) {
-            return view_of<uint8_t>(self.cast<const WallThickness&>().measured, self)
-                .attr("view")("bool");
-          },
-          docs::WallThickness_measured);
+  py::class_<WallThickness> c(m, "WallThickness", docs::WallThickness, py::is_final(),
+                              py::module_local());
+  add_view(c, "values", &WallThickness::values, docs::WallThickness_values);
+  add_view<bool>(c, "measured", &WallThickness::measured, docs::WallThickness_measured);
   m.def("patches", &patches_of, docs::patches, py::arg("triangles"), py::arg("wanted"),
         py::arg("vertices"));
   py::class_<Faces>(m, "BallFaces", docs::BallFaces, py::is_final(), py::module_local())

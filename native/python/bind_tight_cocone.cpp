@@ -15,9 +15,8 @@ std::shared_ptr<Surface> reconstruct(const py::object& points, const CoconeOptio
   const Points rows(points, "points");
   const CoconeOptions chosen = options ? *options : CoconeOptions{};
   const int team = thread_argument(threads);
-  const auto span = rows.span();
   const py::gil_scoped_release release;
-  return std::make_shared<Surface>(watertight_surface(span, chosen, team, progress));
+  return std::make_shared<Surface>(watertight_surface(rows.span(), chosen, team, progress));
 }
 
 CoconeOptions options(double cocone_angle, double flatness_ratio, double flatness_angle,
@@ -25,12 +24,6 @@ CoconeOptions options(double cocone_angle, double flatness_ratio, double flatnes
   const CoconeOptions result{cocone_angle, flatness_ratio, flatness_angle, sharp_angle};
   require_valid(result);
   return result;
-}
-
-auto flags(std::vector<uint8_t> Surface::*member) {
-  return [member](const py::object& self) {
-    return view_of<uint8_t>(self.cast<const Surface&>().*member, self).attr("view")("bool");
-  };
 }
 
 void bind_options(py::module_& m) {
@@ -53,21 +46,18 @@ void bind_options(py::module_& m) {
 
 void bind_tight_cocone(py::module_& m) {
   bind_options(m);
-  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", docs::TightCocone, py::is_final(),
-                                                py::module_local())
-      .def(py::init(&reconstruct), py::arg("points"), py::kw_only(),
-           py::arg("options") = py::none(), py::arg("progress") = nullptr, py::arg("threads") = 0)
-      .def_property_readonly("triangles", view_property<int32_t>(&Surface::triangles),
-                             docs::TightCocone_triangles)
+  py::class_<Surface, std::shared_ptr<Surface>> c(m, "TightCocone", docs::TightCocone,
+                                                  py::is_final(), py::module_local());
+  add_view(c, "triangles", &Surface::triangles, docs::TightCocone_triangles);
+  add_view(c, "samples", &Surface::samples, docs::TightCocone_samples);
+  add_view<bool>(c, "flat", &Surface::flat, docs::TightCocone_flat);
+  add_view<bool>(c, "good", &Surface::good, docs::TightCocone_good);
+  add_view<bool>(c, "on_surface", &Surface::on_surface, docs::TightCocone_on_surface);
+  c.def(py::init(&reconstruct), py::arg("points"), py::kw_only(), py::arg("options") = py::none(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0)
       .def_property_readonly(
           "cell_side", [](const Surface& s) { return numbers_of(s.sides); },
           docs::TightCocone_cell_side)
-      .def_property_readonly("samples", view_property<int32_t>(&Surface::samples),
-                             docs::TightCocone_samples)
-      .def_property_readonly("flat", flags(&Surface::flat), docs::TightCocone_flat)
-      .def_property_readonly("good", flags(&Surface::good), docs::TightCocone_good)
-      .def_property_readonly("on_surface", flags(&Surface::on_surface),
-                             docs::TightCocone_on_surface)
       .def_readonly("nonmanifold_edges", &Surface::nonmanifold_edges,
                     docs::TightCocone_nonmanifold_edges)
       .def_readonly("nonmanifold_vertices", &Surface::nonmanifold_vertices,

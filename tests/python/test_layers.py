@@ -318,7 +318,7 @@ def test_boost_has_one_home():
 
 def test_the_system_has_one_home():
     assert users_of("sys/", "windows.h") == [MEDIAL / "base" / "address_space.cpp"]
-    assert users_of("malloc.h") == [MEDIAL / "base" / "heap.cpp"]
+    assert users_of("malloc.h") == [MEDIAL / "base" / "address_space.cpp"]
 
 
 def test_pybind_and_python_have_one_home():

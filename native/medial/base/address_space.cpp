@@ -2,9 +2,12 @@
 #include "base/address_space.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 
-#include "base/huge_pages.h"
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #ifdef _WIN32
 #define WIN32_LEAN_AND_MEAN
@@ -17,6 +20,12 @@
 #endif
 
 namespace medial {
+
+void release_heap() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 #ifdef _WIN32
 

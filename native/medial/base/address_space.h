@@ -7,6 +7,13 @@
 
 namespace medial {
 
+// Advises the system to use few large pages instead of many small ones, if it has such: it then
+// hands out memory faster, and the processor finds it faster.
+void prefer_huge_pages(void* memory, size_t bytes);
+
+// Makes the C library return the memory to the system that the program has freed, if it can.
+void release_heap();
+
 class AddressSpace {
  public:
   // The range is empty if the system lacks this many consecutive addresses.

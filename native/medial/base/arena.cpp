@@ -6,8 +6,6 @@
 #include <functional>
 #include <iterator>
 
-#include "base/huge_pages.h"
-
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
 #define MEDIAL_SANITIZED
 #elif defined(__has_feature)

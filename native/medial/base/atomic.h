@@ -3,6 +3,8 @@
 // They stand in for std::atomic_ref, which libc++ before 19 lacks.
 #pragma once
 
+#include <cstdint>
+
 #ifndef __GNUC__
 #include <atomic>
 #endif
@@ -59,6 +61,19 @@ void shared_store(T& memory, T value) {
 #else
   std::atomic_ref(memory).store(value, std::memory_order_relaxed);
 #endif
+}
+
+// Several threads find a maximum, or a minimum, together.
+inline void raise(float& value, float to) {
+  float now = shared_load(value);
+  while (now < to && !shared_exchange(value, now, to)) {
+  }
+}
+
+inline void lower(int32_t& value, int32_t to) {
+  int32_t now = shared_load(value);
+  while (now > to && !shared_exchange(value, now, to)) {
+  }
 }
 
 }  // namespace medial

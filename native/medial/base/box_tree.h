@@ -21,6 +21,10 @@ struct TreeNode {
   bool is_leaf() const { return right < 0; }
 };
 
+struct BoxNode : TreeNode {
+  Box box;
+};
+
 // Builds the tree of a run of items, parents before their children, and returns its first node.
 // `describe` fills in a node before its run is split; `split` reorders the run of a node and
 // returns where its right half begins.
@@ -47,6 +51,27 @@ int32_t split_in_middle(std::vector<Item>& items, int32_t begin, int32_t end, co
   select(items.begin() + begin, items.begin() + middle, items.begin() + end,
          [&](const Item& s, const Item& t) { return key(s) < key(t); });
   return middle;
+}
+
+// Returns the tree of items by their boxes, which comes with an order of the items; of two with the
+// same middle the lower one comes first.
+template <typename BoxOf>
+std::vector<BoxNode> tree_of_boxes(std::vector<int32_t>& items, const BoxOf& box_of_item) {
+  constexpr int32_t kInLeaf = 4;
+  std::vector<BoxNode> nodes;
+  const auto describe = [&](BoxNode& node) {
+    for (int32_t i = node.begin; i < node.end; ++i) node.box.add(box_of_item(items[i]));
+  };
+  const auto split = [&](const BoxNode& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(items, node.begin, node.end, [&, axis](int32_t item) {
+      const Box box = box_of_item(item);
+      return std::pair(coordinate(box.low, axis) + coordinate(box.high, axis), item);
+    });
+  };
+  if (items.empty()) return nodes;
+  build_tree(nodes, 0, static_cast<int32_t>(items.size()), kInLeaf, describe, split);
+  return nodes;
 }
 
 // Visits the leaves under a node, the nearer child first, except where `bound`, a lower bound of

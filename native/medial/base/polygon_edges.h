@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// These functions find the edges of polygons that share vertices.
+// These functions find the edges of polygons that share vertices, and their areas and normals.
 #pragma once
 
 #include <span>
@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/triangle.h"
+#include "base/vec3.h"
 
 namespace medial {
 
@@ -24,5 +25,10 @@ void require_polygons(std::span<const int32_t> face_offsets, std::span<const int
 // Throws InvalidInputError.
 PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
                            int32_t vertices, const Run& run);
+
+// Returns a vector for each polygon along its normal, twice as long as its area is large. Throws
+// InvalidInputError.
+std::vector<Vec3> doubled_areas(std::span<const Vec3> points, std::span<const int32_t> face_offsets,
+                                std::span<const int32_t> corners, const Run& run);
 
 }  // namespace medial

@@ -4,7 +4,19 @@
 
 #include <medial/types.h>
 
+#include <algorithm>
+
 namespace medial {
+
+inline Triangle ascending(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+// Whether no corner is named twice.
+inline bool has_three_corners(const Triangle& t) {
+  return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+}
 
 // Returns which corner of a triangle `id` is.
 inline int corner_of(const Triangle& t, int32_t id) { return t[0] == id ? 0 : t[1] == id ? 1 : 2; }

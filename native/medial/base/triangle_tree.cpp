@@ -20,14 +20,14 @@ TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Trian
   for (const auto& [a, b, c] : triangles) {
     triangles_.push_back({vertices[a], vertices[b], vertices[c]});
   }
-  const auto describe = [&](Node& node) {
+  const auto describe = [&](BoxNode& node) {
     for (int32_t i = node.begin; i < node.end; ++i) {
       for (const Vec3& corner : {triangles_[i].a, triangles_[i].b, triangles_[i].c}) {
         node.box.add(corner);
       }
     }
   };
-  const auto split = [&](const Node& node) {
+  const auto split = [&](const BoxNode& node) {
     const int axis = longest_axis(node.box.extent());
     return split_in_middle(triangles_, node.begin, node.end, [axis](const Corners& t) {
       return coordinate(t.a, axis) + coordinate(t.b, axis) + coordinate(t.c, axis);
@@ -40,9 +40,9 @@ double TriangleTree::distance(const Vec3& query) const {
   double squared = HUGE_VAL;
   // No triangle of a node is nearer than its box, up to rounding.
   visit_nearest(
-      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, query); },
+      nodes_, 0, [&](const BoxNode& node) { return medial::squared_distance(node.box, query); },
       [&] { return squared; },
-      [&](const Node& leaf) {
+      [&](const BoxNode& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           squared = std::min(squared, squared_distance(triangles_[i], query));
         }

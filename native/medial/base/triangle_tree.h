@@ -23,14 +23,11 @@ class TriangleTree {
   struct Corners {
     Vec3 a, b, c;
   };
-  struct Node : TreeNode {
-    Box box;
-  };
 
   static double squared_distance(const Corners& triangle, const Vec3& query);
 
   std::vector<Corners> triangles_;  // leaf after leaf
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 }  // namespace medial

@@ -56,6 +56,10 @@ struct Box {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  void add(const Box& other) {
+    add(other.low);
+    add(other.high);
+  }
   Vec3 centre() const { return 0.5 * low + 0.5 * high; }
   Vec3 extent() const { return high - low; }
 };

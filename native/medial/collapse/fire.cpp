@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "collapse/fire.h"
 
-#include "base/heap.h"
+#include "base/address_space.h"
 #include "collapse/bucket_queue.h"
 
 namespace medial {

@@ -4,7 +4,7 @@
 #include <map>
 #include <queue>
 
-#include "base/raise.h"
+#include "base/atomic.h"
 #include "base/sort_unique.h"
 #include "base/union_find.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "collapse/values.h"
 
-#include "base/raise.h"
+#include "base/atomic.h"
 
 namespace medial {
 namespace {

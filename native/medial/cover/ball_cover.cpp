@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cover/ball_cover.h"
+#include <medial/ball_cover.h>
 
 #include <string>
 
@@ -27,25 +27,14 @@ void check(const BallCoverInput& input, const BallCoverOptions& options) {
   require_finite(input.centres, "centre");
   require_finite(input.vertices, "vertex");
   require_corners(input.faces, input.vertices.size());
-  if (input.radii.size() != input.centres.size()) {
-    throw InvalidInputError("Expected one radius per centre, found " +
-                            std::to_string(input.radii.size()) + " for " +
-                            std::to_string(input.centres.size()) + " centres; pass all of them.");
-  }
+  require_one_each(input.radii.size(), input.centres.size(), "one radius per centre",
+                   "centres; pass all of them");
   for (const double radius : input.radii) {
     if (radius >= 0 && radius <= kLargestCoordinate) continue;
     throw InvalidInputError("Expected finite radii of 0 or more, found " + text(radius) +
                             "; correct it.");
   }
-  if (options.count < 1 || options.places < 1) {
-    throw InvalidInputError("Expected at least one ball and one place, found " +
-                            std::to_string(std::min(options.count, options.places)) +
-                            "; ask for more.");
-  }
-  if (!(options.tolerance >= 0 && options.tolerance <= kLargestCoordinate)) {
-    throw InvalidInputError("Expected a finite tolerance of 0 or more, found " +
-                            text(options.tolerance) + "; correct it.");
-  }
+  require_amounts(options.count, options.places, options.tolerance, "ball");
 }
 
 // Returns the distance from each centre to the surface, negative outside.
@@ -118,7 +107,9 @@ void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const do
 
 }  // namespace
 
-BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& options, const Run& run) {
+BallCover cover_by_balls(const BallCoverInput& input, const BallCoverOptions& options, int threads,
+                         Progress* progress) {
+  const Run run{thread_count(threads), progress};
   begin_stage(run.progress, "Lattice", 0, 0.3);
   check(input, options);
   const CoveredSolid solid(input.vertices, input.faces, input.centres, run);
@@ -145,11 +136,6 @@ BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& option
   set_reach(cover, balls, depth, reach, solid, left, run);
   advance(run.progress, 1);
   return cover;
-}
-
-BallCover cover_by_balls(const BallCoverInput& input, const BallCoverOptions& options, int threads,
-                         Progress* progress) {
-  return ball_cover(input, options, {thread_count(threads), progress});
 }
 
 }  // namespace medial

@@ -42,8 +42,7 @@ std::vector<BoundedPlace> bounded(std::span<const Vec3> places, std::span<const 
 
 std::vector<int32_t> one_per_cell(std::span<const Vec3> points, std::span<const double> ranks,
                                   double cell) {
-  Box box;
-  for (const Vec3& point : points) box.add(point);
+  const Box box = box_of(points);
   std::vector<InCell> all;
   all.reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cover/capsule_cover.h"
+#include <medial/capsule_cover.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,15 +32,7 @@ void check(const CapsuleCoverInput& input, const CapsuleCoverOptions& options) {
                             std::to_string(input.segments.size()) + " segments, found " +
                             std::to_string(input.radii.size()) + "; pass as many.");
   }
-  if (options.count < 1 || options.places < 1) {
-    throw InvalidInputError("Expected at least one capsule and one place, found " +
-                            std::to_string(std::min(options.count, options.places)) +
-                            "; ask for more.");
-  }
-  if (!(options.tolerance >= 0 && options.tolerance <= kLargestCoordinate)) {
-    throw InvalidInputError("Expected a finite tolerance of 0 or more, found " +
-                            text(options.tolerance) + "; correct it.");
-  }
+  require_amounts(options.count, options.places, options.tolerance, "capsule");
 }
 
 void largest_first(std::vector<Capsule>& capsules) {
@@ -137,8 +129,9 @@ void store(CapsuleCover& cover, std::span<const Capsule> capsules, const Frame& 
 
 }  // namespace
 
-CapsuleCover capsule_cover(const CapsuleCoverInput& input, const CapsuleCoverOptions& options,
-                           const Run& run) {
+CapsuleCover cover_by_capsules(const CapsuleCoverInput& input, const CapsuleCoverOptions& options,
+                               int threads, Progress* progress) {
+  const Run run{thread_count(threads), progress};
   begin_stage(run.progress, "Lattice", 0, 0.3);
   check(input, options);
   const CoveredSolid solid(input.vertices, input.faces, input.places, run);
@@ -167,11 +160,6 @@ CapsuleCover capsule_cover(const CapsuleCoverInput& input, const CapsuleCoverOpt
   store(cover, capsules, solid.frame);
   advance(run.progress, 1);
   return cover;
-}
-
-CapsuleCover cover_by_capsules(const CapsuleCoverInput& input, const CapsuleCoverOptions& options,
-                               int threads, Progress* progress) {
-  return capsule_cover(input, options, {thread_count(threads), progress});
 }
 
 }  // namespace medial

@@ -1,11 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The largest capsule round a segment that stays in a solid, and how far one leaves it.
+// The largest capsule round a segment that stays in a solid, how far one leaves it, and lines below
+// and above lengths that change along a segment.
 #pragma once
 
-#include "cover/capsule_line.h"
+#include <vector>
+
 #include "cover/covered_solid.h"
 
 namespace medial {
+
+// A length at a share of a segment, 0 at its first end and 1 at its second.
+struct LengthAt {
+  double share = 0, length = 0;
+};
+
+// A linear length, by its values at both ends.
+struct LinearLength {
+  double first = 0, second = 0;
+
+  double at(double share) const { return (1 - share) * first + share * second; }
+};
+
+// Returns, of the lines that are nowhere above a point, the one that is highest in the middle.
+// There must be points at shares of at most and of at least 1/2.
+LinearLength highest_below(const std::vector<LengthAt>& points);
+
+// Returns, of the lines that are nowhere below a point, the one that is lowest in the middle.
+LinearLength lowest_above(std::vector<LengthAt> points);
 
 // The searches end so close to the truth, as a share of the larger radius: radii in a solid are as
 // exact.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cover/covered_solid.h"
 
+#include <string>
+
+#include "base/text.h"
+
 namespace medial {
 namespace {
 
@@ -33,6 +37,18 @@ SolidLattice CoveredSolid::lattice(int64_t places, const Run& run) const {
         "turn them outward.");
   }
   return found;
+}
+
+void require_amounts(int64_t count, int64_t places, double tolerance, const char* solid) {
+  if (count < 1 || places < 1) {
+    throw InvalidInputError("Expected at least one " + std::string(solid) +
+                            " and one place, found " + std::to_string(std::min(count, places)) +
+                            "; ask for more.");
+  }
+  if (!(tolerance >= 0 && tolerance <= kLargestCoordinate)) {
+    throw InvalidInputError("Expected a finite tolerance of 0 or more, found " + text(tolerance) +
+                            "; correct it.");
+  }
 }
 
 }  // namespace medial

@@ -33,6 +33,9 @@ struct CoveredSolid {
   Box box;
 };
 
+// Requires that at least one ball or capsule, and one place of the lattice, is asked for.
+void require_amounts(int64_t count, int64_t places, double tolerance, const char* solid);
+
 // It is safe to use from several threads. The solid must outlive it.
 class SolidDepth {
  public:

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cover/least_capsule.h"
-
 #include <medial/capsule_cover.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/rows.h"
 #include "base/run.h"
+#include "cover/capsule_fit.h"
 
 namespace medial {
 namespace {
@@ -144,9 +143,10 @@ std::pair<Vec3, double> most_outside(const Capsule& capsule, std::span<const Vec
   return found;
 }
 
-}  // namespace
-
-// Few places decide: the extreme ones to begin with, and then one after the other that is not held.
+// Returns a capsule that holds all places, of nearly the least volume: of the least capsules along
+// each of some directions the smallest, whose ends are then moved as long as that makes it smaller.
+// There must be a place. Few of them decide: the extreme ones to begin with, and then one after the
+// other that is not held.
 Capsule least_capsule(std::span<const Vec3> places, bool tapered) {
   const auto ways = directions();
   auto deciding = extremes(places, ways);
@@ -164,6 +164,8 @@ Capsule least_capsule(std::span<const Vec3> places, bool tapered) {
   }
   return round_segment(best.a, best.b, places, tapered);
 }
+
+}  // namespace
 
 LeastCapsules least_capsules(std::span<const Vec3> places, std::span<const int32_t> group,
                              int32_t count, bool tapered, int threads) {

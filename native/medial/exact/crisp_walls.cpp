@@ -8,8 +8,6 @@ class WallFinder {
  public:
   explicit WallFinder(const CrispState& state) : c_(state) {}
 
-  // Returns the walls of a vertex: its samples are of one wall where no facet separates them. On a
-  // curved wall all samples mostly have one foot, so the first one will do unless `thorough`.
   Walls walls_at(int32_t v, bool thorough) const {
     const Groups groups = groups_at(v);
     Walls walls;

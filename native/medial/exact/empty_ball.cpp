@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact/empty_ball.h"
 
+#include <numbers>
+
+#include "base/portable_math.h"
 #include "walls/followed_ball.h"
 
 namespace medial {
@@ -11,6 +14,7 @@ constexpr double kExact = 1e-10;       // between a radius and the distance; der
 constexpr double kFarthestMove = 2;    // that a vertex moves to touch walls; chosen: axis
 constexpr int kMoreWalls = 8;          // attempts to mend walls that the ball sticks out of
 constexpr double kNearlyEqual = 1e-3;  // distances to walls of one rough ball; chosen: unseen
+constexpr double kBefore = 0.5;        // the cosine between a wire and its wall; chosen: unseen
 
 // Returns whether a wall is seen from its inner side. All of them are, except the walls of a sharp
 // reflex edge, which a ball rolls round.
@@ -104,6 +108,33 @@ class BallFinder {
   double tolerance_;
 };
 
+// Returns the wall of a ball that lies before the end of a wire, or -1.
+int32_t wall_before(const Touch& at, const Vec3& along) {
+  int32_t best = -1;
+  double most = kBefore;
+  for (size_t i = 0; i < at.walls.count; ++i) {
+    if (!(dot(at.away[i], along) > most)) continue;
+    most = dot(at.away[i], along);
+    best = at.walls.triangle[i];
+  }
+  return best;
+}
+
+// Finds a ball that touches some walls, although others are as near but for what smooth faces are
+// off: walls all round the end of a wire. The radius is the distance to the nearest face. The place
+// is nearer than a distance to the given one.
+Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,
+                        double within) {
+  const Faces& faces = samples.faces();
+  const double room = kNearlyEqual * hole;
+  const TouchingBall ball = touching_ball(faces, walls.all(), start);
+  if (!(ball.unequal < room) || !(distance(ball.centre, start) < within)) return {};
+  const auto nearest = faces.nearer(ball.centre, ball.radius + room);
+  const bool touches = nearest && nearest->distance > ball.radius - room;
+  if (!touches || !samples.are_near(nearest->point)) return {};
+  return {ball.centre, nearest->distance, walls, ball.away};
+}
+
 }  // namespace
 
 Touch empty_ball(const SamplesOnFaces& samples, const NearPlace& near, const Walls& walls,
@@ -131,16 +162,21 @@ bool is_empty(const SamplesOnFaces& samples, const Touch& ball, double hole) {
   return !samples.faces().nearer(ball.position, ball.radius - kExact * hole);
 }
 
-Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,
-                        double within) {
-  const Faces& faces = samples.faces();
-  const double room = kNearlyEqual * hole;
-  const TouchingBall ball = touching_ball(faces, walls.all(), start);
-  if (!(ball.unequal < room) || !(distance(ball.centre, start) < within)) return {};
-  const auto nearest = faces.nearer(ball.centre, ball.radius + room);
-  const bool touches = nearest && nearest->distance > ball.radius - room;
-  if (!touches || !samples.are_near(nearest->point)) return {};
-  return {ball.centre, nearest->distance, walls, ball.away};
+Touch wire_end(const SamplesOnFaces& samples, double hole, const Touch& at, const Vec3& along) {
+  Walls walls;
+  const int32_t before = wall_before(at, along);
+  if (before < 0) return {};
+  walls.add(before);
+  const auto [right, up] = across(along);
+  for (int i = 0; i < 3; ++i) {
+    const auto [sine, cosine] = portable::sine_cosine(i * 2 * std::numbers::pi / 3);
+    const Vec3 out = cosine * right + sine * up;
+    const int32_t t = samples.triangle_near(at.position + at.radius * out);
+    if (t < 0 || !samples.faces().is_curved(t)) return {};
+    walls.add(t);
+  }
+  // The end of a wire moves by a hole at most.
+  return nearly_empty_ball(samples, hole, walls, at.position, hole);
 }
 
 }  // namespace medial

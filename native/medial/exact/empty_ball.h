@@ -53,10 +53,9 @@ Touch smooth_ball(const SamplesOnFaces& samples, const NearPlace& near, Walls wa
 bool is_empty_between(const SamplesOnFaces& samples, const Touch& ball, double hole);
 // Returns whether all faces are outside of a ball.
 bool is_empty(const SamplesOnFaces& samples, const Touch& ball, double hole);
-// Finds a ball that touches some walls, although others are as near but for what smooth faces are
-// off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
-// the nearest face. The place is nearer than a distance to the given one.
-Touch nearly_empty_ball(const SamplesOnFaces& samples, double hole, Walls walls, const Vec3& start,
-                        double within);
+// A wire that ends at a sheet, as the axis of a cylinder does, ends where the ball touches walls
+// all round it and one before it. Returns that ball near one that touches the walls of the sheet;
+// `along` is the direction of the wire there. Its radius is 0 where there is none.
+Touch wire_end(const SamplesOnFaces& samples, double hole, const Touch& at, const Vec3& along);
 
 }  // namespace medial

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/sort_unique.h"
-#include "exact/wire_end.h"
+#include "exact/empty_ball.h"
 
 namespace medial {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/rows.h"
+#include "base/text.h"
 #include "inside/winding_number.h"
 
 namespace medial {
@@ -12,11 +13,8 @@ namespace {
 void check(std::span<const Vec3> points, std::span<const Vec3> normals, double offset) {
   require_finite(points, "point");
   require_finite(normals, "normal");
-  if (normals.size() != points.size()) {
-    throw InvalidInputError("Expected one normal per point, found " +
-                            std::to_string(normals.size()) + " for " +
-                            std::to_string(points.size()) + " points; pass all of them.");
-  }
+  require_one_each(normals.size(), points.size(), "one normal per point",
+                   "points; pass all of them");
   if (!(offset > 0 && offset < HUGE_VAL)) {
     throw InvalidInputError("Expected a positive offset, found " + std::to_string(offset) +
                             "; a small part of the spacing will do.");

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "base/csr.h"
 #include "base/rounding.h"
 #include "base/rows.h"
 #include "base/union_find.h"
+#include "inside/boundary.h"
 #include "inside/surface.h"
 
 namespace medial {
@@ -17,45 +17,17 @@ struct EdgeFaces {
   int32_t first, second;
 };
 
-struct EdgeUse {
-  int32_t other, face;
-  int direction;
-
-  bool operator<(const EdgeUse& use) const {
-    return other != use.other ? other < use.other : face < use.face;
-  }
-};
-
-bool has_corners(const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
-
-// Lists the uses of the edges from a vertex to higher ones, edge by edge.
-void list_uses(std::span<const Triangle> faces, std::span<const int32_t> fan, int32_t vertex,
-               std::vector<EdgeUse>& uses) {
-  uses.clear();
-  for (const int32_t face : fan) {
-    const auto [next, previous] = link_of(faces[face], vertex);
-    if (next > vertex) uses.push_back({next, face, 1});
-    if (previous > vertex) uses.push_back({previous, face, -1});
-  }
-  std::sort(uses.begin(), uses.end());
-}
-
 std::vector<EdgeFaces> edge_faces(std::span<const Triangle> faces, int32_t vertices,
                                   const Run& run) {
   const auto fans = rows_containing(faces, vertices, run);
-  std::vector<std::vector<EdgeUse>> uses_of(run.threads);
-  return parallel_append<EdgeFaces>(
-      vertices, run, [&](int64_t v, std::vector<EdgeFaces>& out, int worker) {
-        auto& uses = uses_of[worker];
-        list_uses(faces, fans[v], static_cast<int32_t>(v), uses);
-        for (size_t i = 0, end = 0; i < uses.size(); i = end) {
-          int surplus = 0;
-          for (; end < uses.size() && uses[end].other == uses[i].other; ++end) {
-            surplus += uses[end].direction;
-            if (end > i) out.push_back({uses[i].face, uses[end].face});
-          }
-          if (surplus != 0) out.push_back({uses[i].face, -1});
+  return append_by_edge<EdgeFaces>(
+      faces, fans, run, [](int32_t, std::span<const EdgeUse> uses, std::vector<EdgeFaces>& out) {
+        int surplus = 0;
+        for (const EdgeUse& use : uses) surplus += use.forward ? 1 : -1;
+        for (const EdgeUse& use : uses.subspan(1)) {
+          out.push_back({uses[0].triangle, use.triangle});
         }
+        if (surplus != 0) out.push_back({uses[0].triangle, -1});
       });
 }
 
@@ -124,7 +96,7 @@ void number_parts(MeshParts& parts, std::span<const Triangle> faces, UnionFind s
   std::vector<int32_t> number(faces.size(), -1);
   parts.part.assign(faces.size(), -1);
   for (size_t face = 0; face < faces.size(); ++face) {
-    if (!has_corners(faces[face])) continue;
+    if (!has_three_corners(faces[face])) continue;
     const int32_t root = sets.find(static_cast<int32_t>(face));
     if (number[root] < 0) number[root] = parts.count++;
     parts.part[face] = number[root];
@@ -144,7 +116,7 @@ MeshParts mesh_parts(std::span<const Vec3> rows, std::span<const Triangle> trian
   }
   counted = faces;
   for (Triangle& t : counted) {
-    if (!has_corners(t)) t.fill(-1);
+    if (!has_three_corners(t)) t.fill(-1);
   }
   const auto edges = edge_faces(counted, distinct.count(), run);
   UnionFind sets(faces.size(), run);

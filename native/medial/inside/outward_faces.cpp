@@ -87,8 +87,8 @@ OutwardFaces turned(std::span<const Triangle> triangles, const FacePatches& patc
   for (size_t face = 0; face < triangles.size(); ++face) {
     Triangle& t = result.triangles[face];
     if (!patches.counts(face)) {
-      const int32_t a = vertex_of_row[t[0]], b = vertex_of_row[t[1]], c = vertex_of_row[t[2]];
-      const bool corners = a != b && b != c && c != a;
+      const bool corners =
+          has_three_corners({vertex_of_row[t[0]], vertex_of_row[t[1]], vertex_of_row[t[2]]});
       result.reading[face] = corners ? FaceReading::repeated : FaceReading::without_corners;
       if (corners) t.fill(t[0]);
     } else if (patches.turned[face] != back[patches.patch[face]]) {

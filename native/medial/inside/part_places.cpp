@@ -22,7 +22,6 @@ constexpr size_t kFaces = 64;             // of a part that are tested
 constexpr double kFromCorner = 1.0 / 64;  // of the way to the middle; chosen: unseen
 constexpr double kBounding = 0.75;  // of the area of an open part that is no sheet; chosen: unseen
 constexpr double kGolden = std::numbers::phi;
-constexpr int32_t kLeafOfBoxes = 4;
 
 bool meet(const Box& s, const Box& t) {
   return s.low.x <= t.high.x && t.low.x <= s.high.x && s.low.y <= t.high.y && t.low.y <= s.high.y &&
@@ -41,20 +40,7 @@ class BoxTree {
   explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
     items_ =
         rows_where(boxes_.size(), [&](int32_t i) { return boxes_[i].low.x <= boxes_[i].high.x; });
-    const auto describe = [&](Node& node) {
-      for (int32_t i = node.begin; i < node.end; ++i) {
-        node.box.add(boxes_[items_[i]].low);
-        node.box.add(boxes_[items_[i]].high);
-      }
-    };
-    const auto split = [&](const Node& node) {
-      const int axis = longest_axis(node.box.extent());
-      return split_in_middle(items_, node.begin, node.end, [&](int32_t i) {
-        return std::pair(coordinate(boxes_[i].low, axis) + coordinate(boxes_[i].high, axis), i);
-      });
-    };
-    if (items_.empty()) return;
-    build_tree(nodes_, 0, static_cast<int32_t>(items_.size()), kLeafOfBoxes, describe, split);
+    nodes_ = tree_of_boxes(items_, [&](int32_t i) { return boxes_[i]; });
   }
 
   const Box& operator[](int32_t item) const { return boxes_[item]; }
@@ -64,7 +50,7 @@ class BoxTree {
   template <typename Use>
   bool any_met(const Box& box, const Use& use, int32_t id = 0) const {
     if (nodes_.empty() || !meet(nodes_[id].box, box)) return false;
-    const Node& node = nodes_[id];
+    const BoxNode& node = nodes_[id];
     if (!node.is_leaf()) return any_met(box, use, id + 1) || any_met(box, use, node.right);
     for (int32_t i = node.begin; i < node.end; ++i) {
       if (meet(boxes_[items_[i]], box) && use(items_[i])) return true;
@@ -73,13 +59,9 @@ class BoxTree {
   }
 
  private:
-  struct Node : TreeNode {
-    Box box;
-  };
-
   std::vector<Box> boxes_;
   std::vector<int32_t> items_;
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 using Pair = std::pair<int32_t, int32_t>;
@@ -141,11 +123,7 @@ class PlacesOfParts {
     std::vector<Box> boxes(places_.size());
     for (size_t p = 0; p < boxes.size(); ++p) {
       if (places_[p] == PartPlace::sheet) continue;
-      for (const int32_t face : faces_[p]) {
-        const Box box = box_of_face(face);
-        boxes[p].add(box.low);
-        boxes[p].add(box.high);
-      }
+      for (const int32_t face : faces_[p]) boxes[p].add(box_of_face(face));
     }
     return boxes;
   }

@@ -92,13 +92,13 @@ std::optional<RayCrossings::Hit> where_met(const Corners& t, const Vec3& origin,
 RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress)
     : corners_(std::move(triangles)) {
   nodes_.reserve(corners_.size() + 2);
-  const auto describe = [&](Node& node) {
+  const auto describe = [&](BoxNode& node) {
     if (node.end - node.begin > 1 << 14) throw_if_cancelled(progress);
     for (int32_t i = node.begin; i < node.end; ++i) {
       for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) node.box.add(p);
     }
   };
-  const auto split = [&](const Node& node) {
+  const auto split = [&](const BoxNode& node) {
     return split_in_half(corners_, node.begin, node.end);
   };
   if (corners_.empty()) return;
@@ -118,7 +118,7 @@ void RayCrossings::visit(const Vec3& origin, const Vec3& direction, double reach
   stack[top++] = 0;
   while (top > 0) {
     const int32_t id = stack[--top];
-    const Node& node = nodes_[id];
+    const BoxNode& node = nodes_[id];
     if (!meets(node.box, origin, inverse_direction, reach, room)) continue;
     if (!node.is_leaf()) {
       stack[top++] = node.right;

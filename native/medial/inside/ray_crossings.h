@@ -46,15 +46,11 @@ class RayCrossings {
   bool is_beyond(const Vec3& place) const;
 
  private:
-  struct Node : TreeNode {
-    Box box;
-  };
-
   template <typename Visit>
   void visit(const Vec3& origin, const Vec3& direction, double reach, const Visit& visit) const;
 
   std::vector<Corners> corners_;
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 }  // namespace medial

@@ -24,7 +24,7 @@ Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_
   surface.triangles.reserve(triangles.size());
   for (const auto& [i, j, k] : triangles) {
     const Triangle t{vertex_of_row[i], vertex_of_row[j], vertex_of_row[k]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) surface.triangles.push_back(t);
+    if (has_three_corners(t)) surface.triangles.push_back(t);
   }
   const auto fans = rows_containing(std::span<const Triangle>(surface.triangles), vertices, run);
   surface.boundary = boundary_edges(surface.triangles, fans, run);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels/burn_down.h"
 
-#include "base/heap.h"
-#include "base/raise.h"
+#include "base/address_space.h"
+#include "base/atomic.h"
 #include "collapse/limbs.h"
 #include "collapse/sheets.h"
 

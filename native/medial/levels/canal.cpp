@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "base/normal_equations.h"
+
 namespace medial {
 namespace {
 
@@ -47,43 +49,21 @@ class Normals {
   // Returns the weighted mean of u, v, or one of their products.
   double mean(int product) const { return sums_[product][0] / sums_[0][0]; }
 
-  // Solves by Cholesky's method; returns nothing if a column is nearly a combination of earlier
-  // ones.
+  // Returns nothing if a column is nearly a combination of earlier ones.
   std::optional<Row> solve() const {
-    auto m = matrix();
-    Row x = right_;
+    constexpr std::array<std::array<int, 3>, 3> kProduct{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+    NormalEquations<kUnknowns> equations;
     for (int i = 0; i < kUnknowns; ++i) {
-      const double own = m[i][i];
       for (int j = 0; j <= i; ++j) {
-        for (int k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
-        if (j < i) m[i][j] /= m[j][j];
+        const auto& sums = sums_[kProduct[i / kPowers][j / kPowers]];
+        equations.set(i, j, sums[i % kPowers + j % kPowers]);
       }
-      if (!(m[i][i] > kPivot * own)) return std::nullopt;
-      m[i][i] = std::sqrt(m[i][i]);
     }
-    for (int i = 0; i < kUnknowns; ++i) {
-      for (int k = 0; k < i; ++k) x[i] -= m[i][k] * x[k];
-      x[i] /= m[i][i];
-    }
-    for (int i = kUnknowns; i-- > 0;) {
-      for (int k = i + 1; k < kUnknowns; ++k) x[i] -= m[k][i] * x[k];
-      x[i] /= m[i][i];
-    }
-    return x;
+    if (!equations.factorise(kPivot)) return std::nullopt;
+    return equations.coefficients(equations.added(right_));
   }
 
  private:
-  std::array<Row, kUnknowns> matrix() const {
-    constexpr std::array<std::array<int, 3>, 3> kProduct{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-    std::array<Row, kUnknowns> m;
-    for (int i = 0; i < kUnknowns; ++i) {
-      for (int j = 0; j < kUnknowns; ++j) {
-        m[i][j] = sums_[kProduct[i / kPowers][j / kPowers]][i % kPowers + j % kPowers];
-      }
-    }
-    return m;
-  }
-
   std::array<std::array<double, 5>, 6> sums_{};
   Row right_{};
 };

@@ -2,7 +2,7 @@
 #include "levels/level.h"
 
 #include "axis/significance.h"
-#include "base/raise.h"
+#include "base/atomic.h"
 #include "base/rows.h"
 #include "base/sort.h"
 #include "collapse/betti.h"

@@ -6,7 +6,7 @@
 #include "base/rows.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
-#include "base/vec3.h"
+#include "base/triangle.h"
 
 namespace medial {
 namespace {
@@ -23,15 +23,10 @@ void require_ids(const Rows& rows, size_t vertices, const char* what) {
   }
 }
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
 Column<Triangle> distinct(const Column<Triangle>& triangles) {
   std::vector<std::pair<Triangle, size_t>> keys;
   for (size_t i = 0; i < triangles.size(); ++i) {
-    const Triangle t = sorted(triangles[i]);
+    const Triangle t = ascending(triangles[i]);
     if (t[0] != t[1] && t[1] != t[2]) keys.emplace_back(t, i);
   }
   std::sort(keys.begin(), keys.end());
@@ -49,11 +44,8 @@ Column<Triangle> distinct(const Column<Triangle>& triangles) {
 
 void require_sphere_mesh(const SphereMesh& mesh) {
   require_finite(mesh.vertices, "vertex");
-  if (mesh.radius.size() != mesh.vertices.size()) {
-    throw InvalidInputError("Expected one radius per vertex, found " +
-                            std::to_string(mesh.radius.size()) + " for " +
-                            std::to_string(mesh.vertices.size()) + " vertices; pass all of them.");
-  }
+  require_one_each(mesh.radius.size(), mesh.vertices.size(), "one radius per vertex",
+                   "vertices; pass all of them");
   for (size_t v = 0; v < mesh.radius.size(); ++v) {
     if (mesh.radius[v] >= 0 && mesh.radius[v] <= kLargestCoordinate) continue;
     throw InvalidInputError("Expected radii of 0 to " + text(kLargestCoordinate) + ", found " +
@@ -64,14 +56,19 @@ void require_sphere_mesh(const SphereMesh& mesh) {
   require_ids(mesh.wires, mesh.vertices.size(), "edges");
 }
 
-SphereMesh without_doubles(SphereMesh mesh) {
-  mesh.triangles = distinct(mesh.triangles);
+std::vector<Edge> sides_of(std::span<const Triangle> triangles) {
   std::vector<Edge> sides;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& [a, b, c] : triangles) {
     for (const Edge& side : {Edge{a, b}, Edge{b, c}, Edge{a, c}}) {
       sides.push_back({std::min(side[0], side[1]), std::max(side[0], side[1])});
     }
   }
+  return sides;
+}
+
+SphereMesh without_doubles(SphereMesh mesh) {
+  mesh.triangles = distinct(mesh.triangles);
+  auto sides = sides_of(mesh.triangles);
   sort_unique(sides);
   for (Edge& wire : mesh.wires) wire = {std::min(wire[0], wire[1]), std::max(wire[0], wire[1])};
   sort_unique(mesh.wires);
@@ -81,17 +78,7 @@ SphereMesh without_doubles(SphereMesh mesh) {
   return mesh;
 }
 
-Vec3 Unit::inward(const Vec3& p) const {
-  const Vec3 moved = p - origin;
-  return {inward(moved.x), inward(moved.y), inward(moved.z)};
-}
-double Unit::inward(double length) const { return std::ldexp(length, -exponent); }
-Vec3 Unit::outward(const Vec3& p) const {
-  return Vec3{outward(p.x), outward(p.y), outward(p.z)} + origin;
-}
-double Unit::outward(double length) const { return std::ldexp(length, exponent); }
-
-Unit unit_of(const SphereMesh& mesh) {
+Frame frame_of(const SphereMesh& mesh) {
   const Box box = box_of(mesh.vertices);
   double extent = max_abs(box.extent());
   for (const double radius : mesh.radius) extent = std::max(extent, radius);

@@ -4,6 +4,8 @@
 
 #include <medial/sphere_mesh.h>
 
+#include "base/frame.h"
+
 namespace medial {
 
 // Throws InvalidInputError for rows out of range, numbers that are not finite, and negative radii.
@@ -14,16 +16,10 @@ void require_sphere_mesh(const SphereMesh& mesh);
 // corners, are omitted.
 SphereMesh without_doubles(SphereMesh mesh);
 
-// Defines coordinates about the middle of a mesh, in a unit that is a power of two near its extent.
-struct Unit {
-  Vec3 origin;
-  int exponent = 0;
+// Returns the sides of triangles, lower end first, as often as triangles have them.
+std::vector<Edge> sides_of(std::span<const Triangle> triangles);
 
-  Vec3 inward(const Vec3& p) const;
-  double inward(double length) const;
-  Vec3 outward(const Vec3& p) const;
-  double outward(double length) const;
-};
-Unit unit_of(const SphereMesh& mesh);
+// Returns a frame about the middle of a mesh, in a unit that is a power of two near its extent.
+Frame frame_of(const SphereMesh& mesh);
 
 }  // namespace medial

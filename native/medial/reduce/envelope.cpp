@@ -3,7 +3,6 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
-#include "base/select.h"
 #include "reduce/checked_mesh.h"
 
 namespace medial {
@@ -28,7 +27,18 @@ std::vector<Part> parts_of(const SphereMesh& mesh) {
 }
 
 Envelope::Envelope(const SphereMesh& mesh) : mesh_(mesh), parts_(parts_of(mesh)) {
-  build(0, static_cast<int32_t>(parts_.size()));
+  const auto describe = [&](Node& node) { measure(node); };
+  const auto split = [&](const Node& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(parts_, node.begin, node.end, [&, axis](const Part& part) {
+      double low = HUGE_VAL;
+      for (const int32_t v : part) {
+        if (v >= 0) low = std::min(low, coordinate(mesh_.vertices[v], axis));
+      }
+      return std::pair(low, part);
+    });
+  };
+  build_tree(nodes_, 0, static_cast<int32_t>(parts_.size()), kLeaf, describe, split);
 }
 
 void Envelope::measure(Node& node) const {
@@ -41,29 +51,6 @@ void Envelope::measure(Node& node) const {
       node.largest = std::max(node.largest, mesh_.radius[v]);
     }
   }
-}
-
-int32_t Envelope::build(int32_t begin, int32_t end) {
-  const auto id = static_cast<int32_t>(nodes_.size());
-  Node node{.begin = begin, .end = end};
-  measure(node);
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) return id;
-  const int axis = longest_axis(node.box.extent());
-  const int32_t middle = begin + (end - begin) / 2;
-  const auto key = [&](const Part& part) {
-    double low = HUGE_VAL;
-    for (const int32_t v : part) {
-      if (v >= 0) low = std::min(low, coordinate(mesh_.vertices[v], axis));
-    }
-    return std::pair(low, part);
-  };
-  select(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
-         [&](const Part& s, const Part& t) { return key(s) < key(t); });
-  build(begin, middle);
-  const int32_t right = build(middle, end);
-  nodes_[id].right = right;
-  return id;
 }
 
 void Envelope::refit() {
@@ -88,7 +75,18 @@ NearestOfEnvelope Envelope::nearest_in(int32_t part, const Vec3& query) const {
 Envelope::Found Envelope::find(const Vec3& query, int32_t near) const {
   Found best;
   if (near >= 0) best = {nearest_in(near, query), near};
-  search(0, query, best);
+  const auto visit = [&](const Node& leaf) {
+    for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+      if (part_bound(i, query) > best.nearest.distance) continue;
+      const NearestOfEnvelope found = nearest_in(i, query);
+      const bool first = found.distance == best.nearest.distance && i < best.part;
+      if (found.distance < best.nearest.distance || first) best = {found, i};
+    }
+  };
+  if (bound(nodes_[0], query) > best.nearest.distance) return best;
+  visit_nearest(
+      nodes_, 0, [&](const Node& node) { return bound(node, query); },
+      [&] { return best.nearest.distance; }, visit);
   return best;
 }
 
@@ -97,7 +95,7 @@ bool Envelope::covers(const Vec3& query, double depth) const { return covers_in(
 bool Envelope::covers_in(int32_t id, const Vec3& query, double limit) const {
   const Node& node = nodes_[id];
   if (bound(node, query) >= limit) return false;
-  if (node.right >= 0) {
+  if (!node.is_leaf()) {
     return covers_in(id + 1, query, limit) || covers_in(node.right, query, limit);
   }
   for (int32_t i = node.begin; i < node.end; ++i) {
@@ -129,24 +127,6 @@ double Envelope::part_bound(int32_t part, const Vec3& query) const {
     least = std::min(least, dot(away, query - mesh_.vertices[v]) / whole - mesh_.radius[v]);
   }
   return least;
-}
-
-void Envelope::search(int32_t id, const Vec3& query, Found& best) const {
-  const Node& node = nodes_[id];
-  if (bound(node, query) > best.nearest.distance) return;
-  if (node.right < 0) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      if (part_bound(i, query) > best.nearest.distance) continue;
-      const NearestOfEnvelope found = nearest_in(i, query);
-      const bool first = found.distance == best.nearest.distance && i < best.part;
-      if (found.distance < best.nearest.distance || first) best = {found, i};
-    }
-    return;
-  }
-  int32_t near = id + 1, far = node.right;
-  if (bound(nodes_[far], query) < bound(nodes_[near], query)) std::swap(near, far);
-  search(near, query, best);
-  search(far, query, best);
 }
 
 std::vector<double> solid_distances(std::span<const Vec3> queries, const SphereMesh& mesh,

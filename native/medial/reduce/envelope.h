@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box_tree.h"
 #include "reduce/cone_and_slab.h"
 
 namespace medial {
@@ -41,19 +42,15 @@ class Envelope {
   void refit();
 
  private:
-  struct Node {
-    Box box = {};  // of the centres
+  struct Node : TreeNode {
+    Box box;  // of the centres
     double largest = 0;
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;  // the left child follows its parent; -1 marks a leaf
   };
 
-  int32_t build(int32_t begin, int32_t end);
   void measure(Node& node) const;
   bool covers_in(int32_t id, const Vec3& query, double limit) const;
   // Returns a lower bound of the distance to a part, much sooner than the distance.
   double part_bound(int32_t part, const Vec3& query) const;
-  void search(int32_t id, const Vec3& query, Found& best) const;
   EnvelopeOfSpheres of_part(int32_t part) const;
   static double bound(const Node& node, const Vec3& query);
 

@@ -111,17 +111,6 @@ class Painter {
   double spacing_;
 };
 
-std::vector<Edge> edges_of(const SphereMesh& mesh) {
-  std::vector<Edge> edges(mesh.wires.begin(), mesh.wires.end());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    for (const Edge& side : {Edge{a, b}, Edge{b, c}, Edge{a, c}}) {
-      edges.push_back({std::min(side[0], side[1]), std::max(side[0], side[1])});
-    }
-  }
-  sort_unique(edges);
-  return edges;
-}
-
 }  // namespace
 
 Column<Vec3> solid_surface(const SphereMesh& given, double spacing, int threads,
@@ -136,7 +125,9 @@ Column<Vec3> solid_surface(const SphereMesh& given, double spacing, int threads,
   const SphereMesh mesh = without_doubles(given);
   const Envelope envelope(mesh);
   const Painter painter(mesh, envelope, spacing);
-  const auto edges = edges_of(mesh);
+  auto edges = sides_of(mesh.triangles);
+  edges.insert(edges.end(), mesh.wires.begin(), mesh.wires.end());
+  sort_unique(edges);
   if (const double tried = painter.tried(edges); !(tried < kMostPoints)) {
     throw InvalidInputError("Expected a spacing for fewer than " + text(kMostPoints) +
                             " points, found " + text(spacing) + ", which needs about " +

@@ -5,12 +5,13 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
+#include "base/text.h"
+#include "base/triangle.h"
 #include "reduce/checked_mesh.h"
 #include "reduce/collapse.h"
 #include "reduce/envelope.h"
 #include "reduce/fit.h"
 #include "reduce/flat_faces.h"
-#include "reduce/straight_vertices.h"
 
 namespace medial {
 namespace {
@@ -19,10 +20,10 @@ namespace {
 constexpr double kShareCovered = 0x1p-10;  // chosen: axis, midsurface
 constexpr size_t kFitted = 1 << 14, kFittedPerSphere = 16;
 
-SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
+SphereMesh inward(const SphereMesh& mesh, const Frame& frame) {
   SphereMesh result = mesh;
-  for (Vec3& vertex : result.vertices) vertex = unit.inward(vertex);
-  for (double& radius : result.radius) radius = unit.inward(radius);
+  for (Vec3& vertex : result.vertices) vertex = frame.inward(vertex);
+  for (double& radius : result.radius) radius = frame.inward(radius);
   return result;
 }
 
@@ -53,11 +54,8 @@ void require_wanted(const ReduceOptions& options) {
 }
 
 void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
-  if (labels.part.size() != mesh.triangles.size()) {
-    throw InvalidInputError(
-        "Expected one part per triangle, found " + std::to_string(labels.part.size()) + " for " +
-        std::to_string(mesh.triangles.size()) + " triangles; pass all of them.");
-  }
+  require_one_each(labels.part.size(), mesh.triangles.size(), "one part per triangle",
+                   "triangles; pass all of them");
   for (const int32_t v : labels.nodes) {
     if (v >= 0 && static_cast<size_t>(v) < mesh.vertices.size()) continue;
     throw InvalidInputError("Expected nodes that are rows of " +
@@ -86,19 +84,14 @@ std::optional<Collapsed> reduced(const SphereMesh& mesh, const SphereComplex& co
   return found;
 }
 
-// Returns the spheres in the unit of the given ones; those that have not moved are the given ones.
+// Returns the spheres in the frame of the given ones; those that have not moved are the given ones.
 SphereMesh outward(SphereMesh mesh, std::span<const int32_t> row, const SphereMesh& given,
-                   const Unit& unit) {
+                   const Frame& frame) {
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    mesh.vertices[v] = row[v] >= 0 ? given.vertices[row[v]] : unit.outward(mesh.vertices[v]);
-    mesh.radius[v] = row[v] >= 0 ? given.radius[row[v]] : unit.outward(mesh.radius[v]);
+    mesh.vertices[v] = row[v] >= 0 ? given.vertices[row[v]] : frame.outward(mesh.vertices[v]);
+    mesh.radius[v] = row[v] >= 0 ? given.radius[row[v]] : frame.outward(mesh.radius[v]);
   }
   return mesh;
-}
-
-Triangle ascending(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
 }
 
 // Returns the parts of triangles of which each is one of the given ones.
@@ -136,11 +129,11 @@ SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options, Progres
   SphereMesh mesh = without_doubles(given);
   if (mesh.vertices.size() <= static_cast<size_t>(options.vertices)) return mesh;
   const Run run{thread_count(options.threads), progress};
-  const Unit unit = unit_of(mesh);
-  const SphereMesh inner = inward(mesh, unit);
+  const Frame frame = frame_of(mesh);
+  const SphereMesh inner = inward(mesh, frame);
   auto found = reduced(inner, SphereComplex(inner), options.vertices, nullptr, run);
   advance(progress, 1);
-  return outward(std::move(found->mesh), found->row, given, unit);
+  return outward(std::move(found->mesh), found->row, given, frame);
 }
 
 std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabels& labels,
@@ -151,17 +144,17 @@ std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabel
   const SphereMesh mesh = without_doubles(given);
   const auto part = parts_for(mesh, given, labels.part);
   const Run run{thread_count(options.threads), progress};
-  const Unit unit = unit_of(mesh);
-  const SphereMesh inner = inward(mesh, unit);
+  const Frame frame = frame_of(mesh);
+  const SphereMesh inner = inward(mesh, frame);
   const SphereComplex complex(inner);
-  SheetLocks locks(complex, {part, labels.nodes, unit.inward(labels.shortest)},
+  SheetLocks locks(complex, {part, labels.nodes, frame.inward(labels.shortest)},
                    inner.vertices.size());
   auto found = reduced(inner, complex, options.vertices, &locks, run);
   if (!found) return {};
   auto faces = flat_faces(found->mesh, found->part);
   leave_out_straight_vertices(found->mesh, faces, found->row);
   advance(progress, 1);
-  return as_sheets(outward(std::move(found->mesh), found->row, given, unit), faces, found->row);
+  return as_sheets(outward(std::move(found->mesh), found->row, given, frame), faces, found->row);
 }
 
 }  // namespace medial

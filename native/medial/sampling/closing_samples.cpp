@@ -22,10 +22,6 @@ double median_radius(std::span<const Disk> disks) {
   return *middle;
 }
 
-bool alike(const Vec3& normal, const Vec3& other) {
-  return normal == Vec3{} || other == Vec3{} || dot(normal, other) > 0;
-}
-
 std::vector<Disk> candidates_of(const OpenSurface& open, std::span<const OpenSurface::Fall> falls,
                                 std::span<const Disk> kept, const Run& run) {
   std::vector<Vec3> centres;
@@ -70,7 +66,7 @@ class Thinning {
     std::sort(order.begin(), order.end(), [&](int32_t i, int32_t j) { return rank(i) < rank(j); });
     for (const int32_t i : order) {
       const size_t id = kept_ + static_cast<size_t>(i);
-      if (!has_room(id)) continue;
+      if (!has_room(disks_, id, centres_, [&](size_t j) { return stays_[j] != 0; })) continue;
       stays_[id] = 1;
       stay.push_back(i);
     }
@@ -78,23 +74,10 @@ class Thinning {
   }
 
  private:
-  bool has_room(size_t id) {
-    const Disk& disk = disks_[id];
-    for (size_t count = 32;; count *= 4) {
-      centres_.find(disk.centre, count, found_);
-      for (const auto& [away, j] : found_) {
-        if (!stays_[j] || !(away < std::min(disk.radius, disks_[j].radius))) continue;
-        if (alike(disk.normal, disks_[j].normal)) return false;
-      }
-      if (found_.size() < count || found_.back().distance >= disk.radius) return true;
-    }
-  }
-
   std::vector<Disk> disks_;
   size_t kept_;
   std::vector<uint8_t> stays_;
   PointTree centres_;
-  std::vector<Neighbour> found_;
 };
 
 }  // namespace

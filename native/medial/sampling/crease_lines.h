@@ -25,16 +25,12 @@ class CreaseLines {
   std::optional<PlaceOnLine> nearest(const Vec3& from, double within) const;
 
  private:
-  struct Node : TreeNode {
-    Box box;
-  };
-
-  PlaceOnLine place_on(int32_t edge, const Vec3& from) const;
+  std::optional<PlaceOnLine> place_on(int32_t edge, const Vec3& from) const;
 
   const TriangleMesh& mesh_;
   const Creases& creases_;
   std::vector<int32_t> order_;  // edges, leaf after leaf
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 }  // namespace medial

@@ -8,6 +8,7 @@
 #include "base/rounding.h"
 #include "base/rows.h"
 #include "base/sort.h"
+#include "inside/boundary.h"
 #include "inside/surface.h"
 #include "sampling/mitres.h"
 
@@ -55,12 +56,11 @@ void add_triangles(std::span<const Triangle> triangles, std::span<const int32_t>
   std::vector<Triangle> sorted;
   for (size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
-    Triangle t{point[a], point[b], point[c]};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const Triangle t{point[a], point[b], point[c]};
+    if (!has_three_corners(t)) continue;
     mesh.triangles.push_back(t);
     mesh.source.push_back(static_cast<int32_t>(i));
-    std::sort(t.begin(), t.end());
-    sorted.push_back(t);
+    sorted.push_back(ascending(t));
   }
   const auto order =
       lexicographic_order(std::span<const Triangle>(sorted), mesh.points.size(), run);
@@ -120,9 +120,7 @@ void borrow_normals(TriangleMesh& mesh, std::vector<int32_t> slivers) {
 }
 
 void add_normals(TriangleMesh& mesh, const Run& run) {
-  Box box;
-  for (const Vec3& p : mesh.points) box.add(p);
-  const double least = mesh.points.empty() ? 0 : kRounding * max_abs(box.extent());
+  const double least = mesh.points.empty() ? 0 : kRounding * max_abs(box_of(mesh.points).extent());
   mesh.normal.resize(mesh.triangles.size());
   const auto slivers = parallel_append<int32_t>(
       static_cast<int64_t>(mesh.triangles.size()), run,
@@ -137,11 +135,6 @@ void add_normals(TriangleMesh& mesh, const Run& run) {
   borrow_normals(mesh, slivers);
 }
 
-struct Use {
-  int32_t other, triangle;
-  bool forward;
-};
-
 Crease crease_of(const TriangleMesh& mesh, const MeshEdge& edge, size_t uses, double cosine) {
   if (uses == 1) return Crease::boundary;
   if (!edge.manifold) return Crease::sharp;
@@ -152,28 +145,14 @@ Crease crease_of(const TriangleMesh& mesh, const MeshEdge& edge, size_t uses, do
 
 void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, const Run& run) {
   const double cosine = portable::cos(std::max(0.0, sharp_angle - kAngleRounding));
-  std::vector<std::vector<Use>> uses_of(run.threads);
-  creases.edges = parallel_append<MeshEdge>(
-      mesh.fans.size(), run, [&](int64_t point, std::vector<MeshEdge>& out, int worker) {
-        const auto p = static_cast<int32_t>(point);
-        auto& uses = uses_of[worker];
-        uses.clear();
-        for (const int32_t t : mesh.fans[p]) {
-          const auto [next, previous] = link_of(mesh.triangles[t], p);
-          if (next > p) uses.push_back({next, t, true});
-          if (previous > p) uses.push_back({previous, t, false});
-        }
-        std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
-          return std::tie(a.other, a.triangle) < std::tie(b.other, b.triangle);
-        });
-        for (size_t i = 0, end = 0; i < uses.size(); i = end) {
-          while (end < uses.size() && uses[end].other == uses[i].other) ++end;
-          MeshEdge edge{{p, uses[i].other}, {uses[i].triangle, -1}};
-          if (end - i > 1) edge.triangles[1] = uses[i + 1].triangle;
-          edge.manifold = end - i == 2 && uses[i].forward != uses[i + 1].forward;
-          edge.crease = crease_of(mesh, edge, end - i, cosine);
-          out.push_back(edge);
-        }
+  creases.edges = append_by_edge<MeshEdge>(
+      mesh.triangles, mesh.fans, run,
+      [&](int32_t p, std::span<const EdgeUse> uses, std::vector<MeshEdge>& out) {
+        MeshEdge edge{{p, uses[0].other}, {uses[0].triangle, -1}};
+        if (uses.size() > 1) edge.triangles[1] = uses[1].triangle;
+        edge.manifold = uses.size() == 2 && uses[0].forward != uses[1].forward;
+        edge.crease = crease_of(mesh, edge, uses.size(), cosine);
+        out.push_back(edge);
       });
   creases.first_edge.assign(mesh.points.size() + 1, 0);
   for (const MeshEdge& edge : creases.edges) ++creases.first_edge[edge.ends[0]];
@@ -307,6 +286,16 @@ std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const E
     }
   }
   return marked;
+}
+
+std::vector<std::array<int32_t, 3>> edges_of_triangles(const TriangleMesh& mesh,
+                                                       const Creases& creases, const Run& run) {
+  std::vector<std::array<int32_t, 3>> edges(mesh.triangles.size());
+  parallel_for(static_cast<int64_t>(edges.size()), run, [&](int64_t t) {
+    const Triangle& corners = mesh.triangles[t];
+    for (int i = 0; i < 3; ++i) edges[t][i] = creases.find(corners[i], corners[(i + 1) % 3]);
+  });
+  return edges;
 }
 
 std::vector<int32_t> crease_edges(const Creases& creases) {

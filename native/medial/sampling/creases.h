@@ -66,6 +66,10 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
 std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
                                const TriangleMesh& mesh, std::span<const Triangle> triangles);
 
+// Returns the edges of each triangle, by the corners from which they lead to the next one.
+std::vector<std::array<int32_t, 3>> edges_of_triangles(const TriangleMesh& mesh,
+                                                       const Creases& creases, const Run& run);
+
 // Returns the edges that are creases, ascending.
 std::vector<int32_t> crease_edges(const Creases& creases);
 

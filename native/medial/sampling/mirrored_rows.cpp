@@ -42,23 +42,6 @@ Barycentric barycentric(const Triangle& t, const Edge& base, double at_end, doub
   return {share(t[0]), share(t[1]), share(t[2])};
 }
 
-bool alike(const Disk& a, const Disk& b) {
-  return a.normal == Vec3{} || b.normal == Vec3{} || dot(a.normal, b.normal) > 0;
-}
-
-bool has_room(std::span<const Disk> disks, size_t i, const PointTree& centres) {
-  const Disk& disk = disks[i];
-  std::vector<Neighbour> near;
-  for (size_t count = 16;; count *= 4) {
-    centres.find(disk.centre, count, near);
-    for (const auto& [away, j] : near) {
-      if (static_cast<size_t>(j) == i || !(away < std::min(disk.radius, disks[j].radius))) continue;
-      if (alike(disk, disks[j])) return false;
-    }
-    if (near.size() < count || near.back().distance >= disk.radius) return true;
-  }
-}
-
 }  // namespace
 
 std::vector<int32_t> free_pairs(std::span<const Disk> fixed,
@@ -70,8 +53,11 @@ std::vector<int32_t> free_pairs(std::span<const Disk> fixed,
   const PointTree tree = PointTree::sorted(centres, run);
   return parallel_append<int32_t>(
       static_cast<int64_t>(pairs.size()), run, [&](int64_t i, std::vector<int32_t>& kept, int) {
+        const auto is_free = [&](size_t id) {
+          return has_room(disks, id, tree, [&](size_t other) { return other != id; });
+        };
         const size_t left = fixed.size() + 2 * static_cast<size_t>(i);
-        if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {
+        if (is_free(left) && is_free(left + 1)) {
           kept.push_back(static_cast<int32_t>(i));
         }
       });

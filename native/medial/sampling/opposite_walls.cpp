@@ -7,7 +7,6 @@
 namespace medial {
 namespace {
 
-constexpr int32_t kLeafOfWalls = 4;
 constexpr int kMostShrinkings = 32;
 constexpr double kUpright = 0.94;  // cosine of a normal and the way to the centre; chosen: unseen
 constexpr int kMostSteps = 12;
@@ -30,21 +29,7 @@ OppositeWalls::OppositeWalls(const CurvedSurface& surface, const Creases& crease
   for (size_t t = 0; t < boxes.size(); ++t) {
     for (const int32_t corner : mesh_.triangles[t]) boxes[t].add(mesh_.points[corner]);
   }
-  const auto describe = [&](Node& node) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      node.box.add(boxes[order_[i]].low);
-      node.box.add(boxes[order_[i]].high);
-    }
-  };
-  const auto split = [&](const Node& node) {
-    const int axis = longest_axis(node.box.extent());
-    return split_in_middle(order_, node.begin, node.end, [&, axis](int32_t t) {
-      return std::pair(coordinate(boxes[t].low, axis) + coordinate(boxes[t].high, axis), t);
-    });
-  };
-  if (!order_.empty()) {
-    build_tree(nodes_, 0, static_cast<int32_t>(order_.size()), kLeafOfWalls, describe, split);
-  }
+  nodes_ = tree_of_boxes(order_, [&](int32_t t) { return boxes[t]; });
 }
 
 Vec3 OppositeWalls::point(int32_t triangle, const Barycentric& at) const {
@@ -60,9 +45,9 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
   Touch best;
   double within = than * than;
   visit_nearest(
-      nodes_, 0, [&](const Node& node) { return squared_distance(node.box, centre); },
+      nodes_, 0, [&](const BoxNode& node) { return squared_distance(node.box, centre); },
       [&] { return within; },
-      [&](const Node& leaf) {
+      [&](const BoxNode& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const int32_t t = order_[i];
           if (!(sign * dot(mesh_.normal[t], normal) < kOpposite)) continue;

@@ -59,9 +59,6 @@ class OppositeWalls {
   Vec3 point(int32_t triangle, const Barycentric& at) const;
 
  private:
-  struct Node : TreeNode {
-    Box box;
-  };
   struct Touch {
     int32_t triangle = -1;
     Barycentric at{};
@@ -80,7 +77,7 @@ class OppositeWalls {
   const Creases& creases_;
   const TriangleMesh& mesh_;
   std::vector<int32_t> order_;  // triangles, leaf after leaf
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 }  // namespace medial

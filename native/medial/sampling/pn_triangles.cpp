@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/portable_math.h"
+#include "base/rows.h"
 #include "base/sort_unique.h"
 #include "sampling/beside_walls.h"
 #include "sampling/smooth_normal.h"
@@ -172,24 +173,13 @@ double Patch::bulge(const Vec3& free) const {
   return most;
 }
 
-Box Patch::box() const {
-  Box box;
-  for (const Vec3& control : controls()) box.add(control);
-  return box;
-}
+Box Patch::box() const { return box_of(controls()); }
 
 CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth,
                              const Run& run, VertexNormals normals)
     : mesh_(mesh) {
   if (!smooth) return;
-  const auto count = static_cast<int64_t>(mesh.triangles.size());
-  edge_of_.resize(mesh.triangles.size());
-  parallel_for(count, run, [&](int64_t t) {
-    const Triangle& corners = mesh.triangles[t];
-    for (int i = 0; i < 3; ++i) {
-      edge_of_[t][i] = creases.find(corners[i], corners[(i + 1) % 3]);
-    }
-  });
+  edge_of_ = edges_of_triangles(mesh, creases, run);
   add_normals(creases, normals, run);
   handles_.resize(creases.edges.size());
   parallel_for(static_cast<int64_t>(creases.edges.size()), run,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "base/rows.h"
 #include "base/sort_unique.h"
 
 namespace medial {
@@ -391,8 +392,7 @@ std::vector<int64_t> numbered(std::span<const Piece> pieces, std::span<const int
 }
 
 Grid make_grid(const CurvedSurface& surface, std::span<const Disk> fixed, double largest_radius) {
-  Box box;
-  for (const Vec3& p : surface.mesh().points) box.add(p);
+  Box box = box_of(surface.mesh().points);
   for (const Disk& disk : fixed) box.add(disk.centre);
   const double extent = max_abs(box.extent());
   // Curved patches leave the box of their corners by less than its extent.
@@ -401,9 +401,8 @@ Grid make_grid(const CurvedSurface& surface, std::span<const Disk> fixed, double
 }
 
 void require_range(const Grid& grid, const CurvedSurface& surface) {
-  Box box;
-  for (const Vec3& p : surface.mesh().points) box.add(p);
-  const double blocks = 3 * max_abs(box.extent()) * grid.per_length / kSide;
+  const double extent = max_abs(box_of(surface.mesh().points).extent());
+  const double blocks = 3 * extent * grid.per_length / kSide;
   if (blocks < 0x1p20) return;
   throw InvalidInputError(
       "Expected a spacing above a five-millionth of the extent, found less; take a larger one.");

@@ -3,6 +3,7 @@
 // for one more.
 #pragma once
 
+#include "base/point_tree.h"
 #include "sampling/opposite_walls.h"
 #include "sampling/pieces.h"
 
@@ -13,6 +14,28 @@ struct Disk {
   double radius;
   Vec3 normal;  // zero means that it repels from all sides
 };
+
+// Whether two discs repel each other, as those of opposite walls do not.
+inline bool repel(const Disk& a, const Disk& b) {
+  return a.normal == Vec3{} || b.normal == Vec3{} || dot(a.normal, b.normal) > 0;
+}
+
+// Returns whether a disc is not too near to any other one that counts. `centres` are those of all
+// discs.
+template <typename Counts>
+bool has_room(std::span<const Disk> disks, size_t id, const PointTree& centres,
+              const Counts& counts) {
+  const Disk& disk = disks[id];
+  std::vector<Neighbour> near;
+  for (size_t count = 16;; count *= 4) {
+    centres.find(disk.centre, count, near);
+    for (const auto& [away, j] : near) {
+      if (!counts(j) || !(away < std::min(disk.radius, disks[j].radius))) continue;
+      if (repel(disk, disks[j])) return false;
+    }
+    if (near.size() < count || near.back().distance >= disk.radius) return true;
+  }
+}
 
 struct PlacedDisk {
   Disk disk;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "scan/local_quadric.h"
 #include "scan/noise.h"
 
@@ -20,11 +21,8 @@ struct Vertices {
 };
 
 Vertices vertices_of(std::span<const Vec3> points, std::span<const Vec3> normals, const Run& run) {
-  if (normals.size() != points.size()) {
-    throw InvalidInputError("Expected one normal per point, found " +
-                            std::to_string(normals.size()) + " for " +
-                            std::to_string(points.size()) + " points; pass all of them.");
-  }
+  require_one_each(normals.size(), points.size(), "one normal per point",
+                   "points; pass all of them");
   require_finite(normals, "normal");
   const DistinctRows distinct = distinct_rows(points, "points", run);
   std::vector<Vec3> sums(static_cast<size_t>(distinct.count()));

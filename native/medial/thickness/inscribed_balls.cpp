@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -75,9 +76,7 @@ double width_of(const TriangleMesh& mesh, int32_t triangle) {
 class Shrinking {
  public:
   Shrinking(const Faces& faces, double rounding) : faces_(faces), rounding_(rounding) {
-    Box box;
-    for (const Vec3& p : faces.mesh().points) box.add(p);
-    reach_ = 0.5 * length(box.extent());
+    reach_ = 0.5 * length(box_of(faces.mesh().points).extent());
     UnionFind joined(faces.mesh().triangles.size());
     for (const MeshEdge& edge : faces.creases().edges) {
       const auto [a, b] = edge.triangles;

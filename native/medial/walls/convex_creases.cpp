@@ -10,7 +10,6 @@
 namespace medial {
 namespace {
 
-constexpr int32_t kLeafOfCreases = 4;
 constexpr double kBendsApart = 8;    // spacings between the bends of a meant line; chosen: axis
 constexpr double kNearBend = 4;      // spacings from a zigzag to its straight edges; chosen: axis
 constexpr double kLeastPatch = 100;  // squares of the spacing; chosen: axis, midsurface
@@ -63,8 +62,8 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
   if (segments_.empty()) return;
   find_corners(find_patches(spacing), spacing);
   find_fragments(spacing);
-  const auto box = [&](int32_t e) {
-    Box around = {};
+  nodes_ = tree_of_boxes(segments_, [&](int32_t e) {
+    Box around;
     for (const int32_t t : edges[e].triangles) {
       for (int i = 0; i <= 3; ++i) {
         around.add(
@@ -72,22 +71,7 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
       }
     }
     return around;
-  };
-  const auto describe = [&](Node& node) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      const Box own = box(segments_[i]);
-      node.box.add(own.low);
-      node.box.add(own.high);
-    }
-  };
-  const auto split = [&](const Node& node) {
-    const int axis = longest_axis(node.box.extent());
-    return split_in_middle(segments_, node.begin, node.end, [&, axis](int32_t e) {
-      const Box own = box(e);
-      return std::pair(coordinate(own.low, axis) + coordinate(own.high, axis), e);
-    });
-  };
-  build_tree(nodes_, 0, static_cast<int32_t>(segments_.size()), kLeafOfCreases, describe, split);
+  });
 }
 
 // A bend that has another one close by is part of a zigzag, and so is an end or a meeting of
@@ -193,7 +177,8 @@ PlaceOnCrease ConvexCreases::place_on(int32_t edge, const Vec3& from) const {
 
 std::optional<PlaceOnCrease> ConvexCreases::nearer(const Vec3& from, double than) const {
   return nearest_place<PlaceOnCrease>(
-      nodes_, segments_, than, [&](const Node& node) { return squared_distance(node.box, from); },
+      nodes_, segments_, than,
+      [&](const BoxNode& node) { return squared_distance(node.box, from); },
       [&](int32_t edge, double) { return std::optional(place_on(edge, from)); });
 }
 

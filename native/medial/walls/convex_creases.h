@@ -37,10 +37,6 @@ class ConvexCreases {
   bool divides(int32_t edge) const { return divides_[edge] != 0; }
 
  private:
-  struct Node : TreeNode {
-    Box box;
-  };
-
   // Returns the patch of each triangle.
   std::vector<int32_t> find_patches(double spacing);
   void find_corners(std::span<const int32_t> patch, double spacing);
@@ -55,7 +51,7 @@ class ConvexCreases {
   std::vector<uint8_t> divides_;   // per edge
   std::vector<uint8_t> jagged_;    // per edge
   std::vector<uint8_t> fragment_;  // per edge
-  std::vector<Node> nodes_;
+  std::vector<BoxNode> nodes_;
 };
 
 }  // namespace medial

@@ -38,7 +38,9 @@ Faces::Faces(const FacesInput& input, const Frame& frame, const Run& run, Vertex
   for (size_t t = 0; t < mesh_.source.size(); ++t) {
     triangle_of_[mesh_.source[t]] = static_cast<int32_t>(t);
   }
-  find_edges();
+  separates_.reserve(creases_.edges.size());
+  for (const MeshEdge& edge : creases_.edges) separates_.push_back(separation(edge));
+  edge_of_ = edges_of_triangles(mesh_, creases_, run);
   find_fans();
   if (input.smooth) {
     bulge_.resize(mesh_.triangles.size());
@@ -62,18 +64,6 @@ size_t Faces::bytes() const {
                  creases_.at, creases_.corner, triangle_of_, edge_of_, separates_, fan_of_, bulge_,
                  order_, nodes_) +
          surface_->bytes();
-}
-
-void Faces::find_edges() {
-  separates_.reserve(creases_.edges.size());
-  for (const MeshEdge& edge : creases_.edges) separates_.push_back(separation(edge));
-  edge_of_.resize(mesh_.triangles.size());
-  for (size_t t = 0; t < edge_of_.size(); ++t) {
-    const Triangle& corners = mesh_.triangles[t];
-    for (int i = 0; i < 3; ++i) {
-      edge_of_[t][i] = creases_.find(corners[i], corners[(i + 1) % 3]);
-    }
-  }
 }
 
 uint8_t Faces::separation(const MeshEdge& edge) const {

@@ -147,7 +147,6 @@ class Faces {
 
   Foot flat_foot(int32_t triangle, const Vec3& from) const;
   Foot lifted(const Foot& flat, const Vec3& from) const;
-  void find_edges();
   void find_fans();
   void build_tree_of_faces();
   OrientedBox box_round(std::span<const int32_t> triangles, std::vector<Vec3>& controls) const;
