@@ -43,21 +43,7 @@ is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writ
 
 
 def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -> bpy.types.Object:
-    """Make the balls of a source, or update the existing ones; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : BallCover
-    frame : (4, 4) float64
-        Where the balls lie in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        They cannot be changed now, or Blender cannot hold them.
-    """
+    """Make the balls of a source, or update the existing ones."""
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
@@ -87,13 +73,10 @@ def _show(thing: bpy.types.Object, capsules: bool, is_new: bool) -> None:
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:
-    """The balls of an object as they are now, in its own frame; the figures of balls that
-    somebody has changed are unknown.
+    """The balls of an object as they are now, in its own frame; the figures of balls that somebody has changed are
+    unknown.
 
-    Raises
-    ------
-    InvalidInputError
-        The radii are gone, or no ball is left, or somebody is editing them.
+    Raises InvalidInputError where the radii are gone, no ball is left, or somebody is editing them.
     """
     check_mode(thing)
     centres, radii, edges = _rows(thing)

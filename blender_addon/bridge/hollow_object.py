@@ -51,22 +51,7 @@ def hole_of(found: Hollow, frame: Floats, width: float, at_cursor: bool) -> Drai
 def write_hollow(
     source: bpy.types.Object, found: Hollow, frame: Floats, hole: DrainHole | None
 ) -> bpy.types.Object:
-    """Make the hollow solid of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Hollow
-    frame : (4, 4) float64
-        Where it lies in the world; rotation and translation only.
-    hole : DrainHole or None
-
-    Raises
-    ------
-    InvalidInputError
-        It cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the hollow solid of a source, or update the existing one."""
     thing, _ = HOLLOW.write_mesh(source, partial(new_mesh, found))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)

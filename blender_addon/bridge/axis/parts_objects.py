@@ -36,14 +36,8 @@ def part_of_active_face(thing: bpy.types.Object) -> int:
 
 
 def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
-    """Select the faces of a part of an axis in object mode; returns how many there are.
-
-    Parameters
-    ----------
-    thing : Object
-    number : int
-    extend : bool
-        What is selected stays so.
+    """Select the faces of a part of an axis in object mode, with `extend` besides what is selected; returns how many
+    there are.
     """
     mesh = thing.data
     wanted = _parts(mesh) == number
@@ -78,10 +72,7 @@ _TABLE: tuple[Attribute, ...] = (RADIUS, PART)
 def separate_parts(result: bpy.types.Object) -> bpy.types.Collection:
     """Make an object of each part of an axis, in a collection next to it; those that were made before are replaced.
 
-    Raises
-    ------
-    InvalidInputError
-        The axis has no parts, or more than Blender shows well as objects.
+    Raises InvalidInputError where the axis has no parts, or more than Blender shows well as objects.
     """
     axis = with_agreeing_facets(read_axis(result))
     sheets = [_sheet(axis, number) for number in range(axis.structure.parts)]

@@ -33,10 +33,7 @@ def find_axis(thing: bpy.types.Object | None) -> bpy.types.Object | None:
 def read_axis(result: bpy.types.Object) -> MedialAxis:
     """Read a medial axis back from a mesh and its attributes, as it is now: an artist may have edited it.
 
-    Raises
-    ------
-    InvalidInputError
-        An attribute of the table is missing.
+    Raises InvalidInputError where an attribute of the table is missing.
     """
     with _readable_mesh(result) as mesh:
         offsets, corners = read_polygons(mesh)

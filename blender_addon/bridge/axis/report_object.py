@@ -39,23 +39,7 @@ def has_report(thing: bpy.types.Object) -> bool:
 def write_report(
     source: bpy.types.Object, found: SamplingReport, frame: np.ndarray, colours: bool = True
 ) -> bpy.types.Object:
-    """Make the report of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : SamplingReport
-    frame : (4, 4) float64
-        Where the samples lie in the world; rotation and translation only.
-    colours : bool
-        Whether it has `ma_color`.
-
-    Raises
-    ------
-    InvalidInputError
-        The report cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the report of a source, or update the existing one; with `colours` it has `ma_color`."""
     build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
     of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
     report, is_new = REPORT.write_coloured(source, build, of, found.epsilon, 0.0, end)
@@ -117,10 +101,7 @@ def write_on_source(
     """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, colours, and the
     feature size with its vertex group.
 
-    Raises
-    ------
-    InvalidInputError
-        The source cannot take it, or its modifiers make other vertices.
+    Raises InvalidInputError where the source cannot take it, or its modifiers make other vertices.
     """
     check_source_writable(source)
     vertices, original = len(found.shape.points), len(source.data.vertices)

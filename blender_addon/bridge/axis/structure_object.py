@@ -45,14 +45,7 @@ def read_structure(
 ) -> Structure | None:
     """The structure of a mesh; None where it has none, or where an artist has changed its elements.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    alone : (w,) int
-        The edges without a face.
-    result : Object
-    generators : (f, 2) int32
-        As the mesh has them: exchanged where the facet was turned.
+    `alone` are the edges without a face; `generators` are as the mesh has them: exchanged where the facet was turned.
     """
     if stored.STRUCTURE not in result:
         return None

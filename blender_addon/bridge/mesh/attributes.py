@@ -18,18 +18,10 @@ from ...core.samples.sampling_report import SamplingReport
 
 @dataclass(frozen=True)
 class Attribute:
-    """One attribute of a mesh that is made.
+    """One attribute of a mesh that is made, with Blender's identifiers of its domain and its type.
 
-    Parameters
-    ----------
-    name : str
-        In Blender.
-    field, column : str, int or None
-        Of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for pairs.
-    domain, type : str
-        Blender's identifiers.
-    dtype : type
-        What Blender stores, so that it is copied without conversion.
+    `field` is that of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for
+    pairs. `dtype` is what Blender stores, so that it is copied without conversion.
     """
 
     name: str
@@ -131,10 +123,7 @@ def _key_of(kind: str) -> str:
 def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
     """Give a mesh in object mode an attribute; one of that name and of another kind is replaced.
 
-    Raises
-    ------
-    InvalidInputError
-        Something else has the name, such as a vertex group.
+    Raises InvalidInputError where something else has the name, such as a vertex group.
     """
     found = mesh.attributes.get(name)
     if found is not None and (found.domain, found.data_type) != (domain, kind):

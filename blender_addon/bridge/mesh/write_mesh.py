@@ -37,20 +37,9 @@ class Polygons(Protocol):
 def new_axis_mesh(
     axis: MedialAxis, name: str | bpy.types.Mesh, arrays: AxisArrays | None = None
 ) -> bpy.types.Mesh:
-    """A medial axis as a mesh with all attributes, or no mesh at all.
+    """A medial axis as a mesh with all attributes, or no mesh at all, as `new_mesh`.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-    name : str or Mesh
-        As in `new_mesh`.
-    arrays : AxisArrays, optional
-        Those of `axis`, where a thread has computed them.
-
-    Raises
-    ------
-    InvalidInputError
-        Coordinates too large for Blender.
+    `arrays` are those of the axis, where a thread has computed them.
     """
     if arrays is None:
         arrays = arrays_of(axis)
@@ -139,21 +128,10 @@ def new_mesh(
 ) -> bpy.types.Mesh:
     """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
 
-    Parameters
-    ----------
-    polygons : Polygons
-    name : str or Mesh
-        A mesh is emptied and filled again; it stays as it is where the coordinates are refused.
-    table : iterable of Attribute
-    edges : (w, 2) int32, optional
-        Edges besides those of the polygons; they come after these.
-    of_polygons : tuple of arrays, optional
-        The edges of the polygons and the edge after each corner, where a thread has computed them.
-
-    Raises
-    ------
-    InvalidInputError
-        Coordinates too large for Blender.
+    `name` is that of a new mesh, or a mesh that is emptied and filled again; it stays as it is where the coordinates
+    are refused. `edges`, (w, 2) int32, come after those of the polygons. `of_polygons` are the edges of the polygons
+    and the edge after each corner, where a thread has computed them. Raises InvalidInputError where coordinates are too
+    large for Blender.
     """
     positions = _positions(polygons)
     _check_faces(polygons)

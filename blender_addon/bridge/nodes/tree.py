@@ -18,12 +18,7 @@ _EARLIER = {"ANGLE": "NodeSocketFloatAngle", "DISTANCE": "NodeSocketFloatDistanc
 
 
 class Tree:
-    """A new group with the input *Geometry*; `geometry` is its socket.
-
-    Parameters
-    ----------
-    name : str
-    """
+    """A new group with the input *Geometry*; `geometry` is its socket."""
 
     def __init__(self, name: str) -> None:
         self.group = bpy.data.node_groups.new(name, "GeometryNodeTree")
@@ -54,18 +49,10 @@ class Tree:
         return self.input("NodeSocketFloat", name, default, about, subtype=subtype, min_value=least)
 
     def node(self, kind: str, *values: Any, named: dict[str, Any] | None = None, **settings: Any):
-        """A new node; returns its first output.
+        """A new node, by Blender's identifier; returns its first output.
 
-        Parameters
-        ----------
-        kind : str
-            Blender's identifier.
-        values : sockets or plain values
-            Of its inputs in order; None leaves one as it is.
-        named : dict, optional
-            The same by the name of the input.
-        settings
-            Properties of the node.
+        `values`, sockets or plain ones, are those of its inputs in order, and None leaves an input as it is; `named`
+        has the same by the name of the input. `settings` are properties of the node.
         """
         node = self._add(kind)
         for name, value in settings.items():

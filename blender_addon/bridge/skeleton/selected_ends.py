@@ -17,10 +17,7 @@ from .skeleton_object import rows_of_vertices
 def selected_ends(source: bpy.types.Object, shape: Shape) -> Floats:
     """Return an end for each connected group of selected vertices, (e, 3): their mean, in the space of the shape.
 
-    Raises
-    ------
-    InvalidInputError
-        Fewer than two groups are selected, or the source is no mesh.
+    Raises InvalidInputError where fewer than two groups are selected, or the source is no mesh.
     """
     if source.type != "MESH":
         raise InvalidInputError(

@@ -34,21 +34,7 @@ is_skeleton, skeleton_of, check_skeleton_writable = (
 def write_skeleton(
     source: bpy.types.Object, found: Skeletonization, frame: np.ndarray
 ) -> bpy.types.Object:
-    """Make the skeleton of a source, or update the existing one, whose bevel and materials stay.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Skeletonization
-    frame : (4, 4) float64
-        Where the skeleton lies in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        The skeleton cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the skeleton of a source, or update the existing one, whose bevel and materials stay."""
     thing = skeleton_of(source)
     check_mode(thing)
     check_size(found.skeleton)

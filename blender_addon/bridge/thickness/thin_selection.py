@@ -41,15 +41,11 @@ def least_of(carrier: bpy.types.Object) -> tuple[tuple[float, ...], float]:
 
 
 def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) -> int:
-    """Select the thin faces of a mesh and nothing else; returns how many there are.
+    """Select the thin faces of a mesh with `ma_thin`, in object or edit mode, and nothing else; returns how many there
+    are.
 
-    Parameters
-    ----------
-    thing : Object
-        In object or edit mode, with `ma_thin`.
-    near : tuple of 3 float, optional
-        Only those that are connected to the thin face next to this place, in the object's own frame; where no face
-        is thin, that face alone which is next to it.
+    Near a place, in the object's own frame, these are only those that are connected to the thin face next to it; where
+    no face is thin, that face alone which is next to it.
     """
     with in_object_mode(thing):
         mesh = thing.data
