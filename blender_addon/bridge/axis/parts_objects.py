@@ -14,7 +14,7 @@ from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
 from ..mesh import stored
-from ..mesh.attributes import PART, RADIUS, Attribute
+from ..mesh.attributes import PART, RADIUS, Attribute, read_attribute
 from ..mesh.colours import remember_colours
 from ..mesh.mesh_arrays import select_faces, selected_faces
 from ..mesh.write_mesh import new_mesh
@@ -48,11 +48,8 @@ def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
 
 
 def _parts(mesh: bpy.types.Mesh) -> Ints:
-    part = np.full(len(mesh.polygons), -1, np.int32)
-    found = mesh.attributes.get(PART.name)
-    if found is not None and (found.domain, found.data_type) == ("FACE", "INT"):
-        found.data.foreach_get("value", part)
-    return part
+    part = read_attribute(mesh.attributes, PART.name, PART.type, PART.domain)
+    return np.full(len(mesh.polygons), -1, np.int32) if part is None else part
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,11 +32,6 @@ class Attribute:
     column: int | None = None
 
     @property
-    def width(self) -> int:
-        """The number of numbers that an element has."""
-        return {"INT32_2D": 2, "FLOAT_VECTOR": 3}.get(self.type, 1)
-
-    @property
     def key(self) -> str:
         """Blender's name for the numbers of an element."""
         return _key_of(self.type)
@@ -49,6 +44,16 @@ class Attribute:
         if self.dtype is np.float32:
             array = as_float32(array)
         return np.ascontiguousarray(array, self.dtype).ravel()
+
+
+# The numbers of an element of each kind of attribute: how many there are, and Blender's type of them.
+_NUMBERS = {
+    "FLOAT": (1, np.float32),
+    "FLOAT_VECTOR": (3, np.float32),
+    "INT": (1, np.int32),
+    "INT32_2D": (2, np.int32),
+    "BOOLEAN": (1, np.bool_),
+}
 
 
 def as_float32(values: Floats) -> NDArray[np.float32]:
@@ -68,7 +73,7 @@ _TWO_INTS = (
     Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
 )
 # Only clean forms and curves have these attributes; lengths are percent of the diagonal, as on the sliders.
-_LEVEL = (
+LEVEL_ATTRIBUTES = (
     Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
     Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
     Attribute("ma_place", "place", "POINT", "INT", np.int32),
@@ -80,7 +85,7 @@ _LEVEL = (
 # Only clean forms have these; the edges are those of the facets, which come first.
 PART = Attribute("ma_part", "part", "FACE", "INT", np.int32)
 _KIND = Attribute("ma_kind", "kind", "POINT", "INT", np.int32)
-_STRUCTURE = (
+STRUCTURE_ATTRIBUTES = (
     PART,
     Attribute("ma_seam", "seam", "EDGE", "INT", np.int32),
     Attribute("ma_curve", "curve", "EDGE", "INT", np.int32),
@@ -103,16 +108,6 @@ def attributes() -> tuple[Attribute, ...]:
     """The attributes of every medial axis, as this Blender can hold them."""
     types = bpy.types.Attribute.bl_rna.properties["data_type"].enum_items
     return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
-
-
-def level_attributes() -> tuple[Attribute, ...]:
-    """The further attributes of clean forms and curves."""
-    return _LEVEL
-
-
-def structure_attributes() -> tuple[Attribute, ...]:
-    """The attributes of the structure of a clean form."""
-    return _STRUCTURE
 
 
 def _key_of(kind: str) -> str:
@@ -145,8 +140,17 @@ def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> b
     )
 
 
-def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:
-    return name in mesh.attributes
+def read_attribute(
+    attributes: bpy.types.AttributeGroup, name: str, kind: str, domain: str
+) -> NDArray | None:
+    """Return the numbers of an attribute, (n,) or (n, 2 or 3); None where there is none of that kind and domain."""
+    found = attributes.get(name)
+    if found is None or (found.domain, found.data_type) != (domain, kind):
+        return None
+    width, dtype = _NUMBERS[kind]
+    values = np.empty(len(found.data) * width, dtype)
+    found.data.foreach_get(_key_of(kind), values)
+    return values.reshape(-1, width) if width > 1 else values
 
 
 # Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier
@@ -169,9 +173,9 @@ def read_normals(attributes: bpy.types.AttributeGroup) -> Floats | None:
     for name in NORMAL_NAMES:
         if name == NORMAL and _KIND.name in attributes:
             continue
-        found = attributes.get(name)
-        if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_VECTOR"):
-            return read_vectors(found.data, "vector")
+        found = read_attribute(attributes, name, "FLOAT_VECTOR", "POINT")
+        if found is not None:
+            return found.astype(np.float64)
     return None
 
 

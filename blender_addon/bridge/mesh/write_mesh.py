@@ -16,12 +16,12 @@ from ...core.axis.medial_axis import MedialAxis, no_edges
 from ...core.axis.structure import SEAM, Structure
 from ...core.errors import InvalidInputError
 from .attributes import (
+    LEVEL_ATTRIBUTES,
     NORMAL,
+    STRUCTURE_ATTRIBUTES,
     TANGENT,
     Attribute,
     attributes,
-    level_attributes,
-    structure_attributes,
 )
 from .axis_arrays import AxisArrays, arrays_of, edges_of
 
@@ -50,7 +50,7 @@ def new_axis_mesh(
         _add_vectors(mesh, TANGENT, arrays.tangents)
         if axis.level is None:
             return mesh
-        _add_attributes(mesh, axis.level, level_attributes())
+        _add_attributes(mesh, axis.level, LEVEL_ATTRIBUTES)
         if axis.structure is not None:
             _add_structure(mesh, axis.structure)
             _shade_by_side(mesh, np.diff(axis.face_offsets))
@@ -70,7 +70,7 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
     Blender takes edges of other than two faces for sharp by itself.
     """
     alone = len(mesh.edges) - len(structure.seam)
-    for attribute in structure_attributes():
+    for attribute in STRUCTURE_ATTRIBUTES:
         data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
         own = attribute.values(structure)
         if attribute.domain == "EDGE":

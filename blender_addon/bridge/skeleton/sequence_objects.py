@@ -13,14 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-import numpy as np
 
 from ...core.axis.colours import radius_range
 from ...core.errors import InvalidInputError
 from ...core.files.load_axis import load_axis
 from ...core.skeleton.load_skeleton import load_skeleton
 from ..mesh import stored
-from ..mesh.attributes import RADIUS
+from ..mesh.attributes import RADIUS, read_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.material import dress, radius_material
 from ..mesh.write_mesh import new_axis_mesh
@@ -138,8 +137,7 @@ def _same_colours(things: list[bpy.types.Object]) -> None:
     start, end = radius_range([lowest, highest])
     for thing in things:
         thing[stored.RADIUS_MIN], thing[stored.RADIUS_MAX] = lowest, highest
-        radii = np.empty(len(thing.data.vertices), np.float32)
-        thing.data.attributes[RADIUS.name].data.foreach_get("value", radii)
+        radii = read_attribute(thing.data.attributes, RADIUS.name, RADIUS.type, RADIUS.domain)
         colour_mesh(thing.data, radii, start, end)
         remember_colours(thing, RADIUS.name, start, end)
 

@@ -7,7 +7,6 @@ import bpy
 from mathutils import Vector
 
 from ...bridge.mesh import stored
-from ...bridge.mesh.attributes import has_attribute
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness.heat_map import show_thickness
 from ...bridge.thickness.thickness_object import (
@@ -147,4 +146,4 @@ def _selected_on(context, carrier):
     active = context.object
     source = source_of(carrier) if is_copy(carrier) else carrier
     on_source = active == source and not is_gone(source) and source.type == "MESH"
-    return source if on_source and has_attribute(source.data, THIN) else carrier
+    return source if on_source and THIN in source.data.attributes else carrier
