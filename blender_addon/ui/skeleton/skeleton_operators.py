@@ -22,10 +22,10 @@ from ...bridge.skeleton.bind_armature import (
     check_bindable,
     groups_of_others,
 )
-from ...bridge.skeleton.selected_ends import selected_ends
 from ...bridge.skeleton.skeleton_object import (
     check_parts_writable,
     check_skeleton_writable,
+    selected_ends,
     write_parts,
     write_skeleton,
 )
