@@ -30,23 +30,17 @@ class _Sheet:
 
 
 @with_options(SOLIDIFY_OPTIONS)
-class SolidifyProperties:
-    """The wall that a sheet becomes."""
-
-
-class OBJECT_OT_medial_axis_solidify(
-    ComputeOperator, Alone, SolidifyProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_solidify(ComputeOperator, Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_solidify"
     bl_label = "Solidify"
     bl_description = (
         "Make a closed solid of a sheet, with an even wall that does not cross itself and is thinner where there is no "
         "room for it"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "solid"
     check_writable = staticmethod(check_solid_writable)
+    write = staticmethod(write_solid)
 
     parent: prop(LOOKS["parent"])
 
@@ -62,9 +56,6 @@ class OBJECT_OT_medial_axis_solidify(
     def work(self, sheet):
         wanted = settings_from(self, SolidifySettings)
         return partial(solidify, sheet.shape, wanted, sheet.selected)
-
-    def write(self, thing, found, frame):
-        return write_solid(thing, found, frame)
 
     def summary(self, found):
         if found.without_room == 0.0:

@@ -63,6 +63,8 @@ class ComputeOperator(FromSelection, WatchedJob):
     selected, because the outline of a selected result hides the result.
     """
 
+    bl_options = {"REGISTER", "UNDO"}
+
     product = ""
     alone = False  # a property, where the product fills the place of what it is made of
 

@@ -123,7 +123,6 @@ class OBJECT_OT_medial_axis_skeleton(SkeletonOperator, bpy.types.Operator):
     bl_description = (
         "Make a curve along the middle of the selected objects, with the radius at every point"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "skeleton"
     shown = (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent")
@@ -161,7 +160,6 @@ class OBJECT_OT_medial_axis_armature(SkeletonOperator, ArmatureProperties, bpy.t
     bl_description = (
         "Make few bones along the skeleton of the selected objects, and bind these to them"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "armature"
     parent = False  # the object follows its bones

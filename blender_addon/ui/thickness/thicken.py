@@ -61,18 +61,13 @@ def _thickened(walls, settings, wanted, limit, progress):
 
 
 @with_options(THICKEN_OPTIONS)
-class ThickenProperties:
-    """The options of thicker walls."""
-
-
-class OBJECT_OT_medial_axis_thicken(SampledOperator, ThickenProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_thicken(SampledOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_thicken"
     bl_label = "Thicken to the Limit"
     bl_description = (
         "Move walls that are thinner than the limit apart until they are as thick, by a modifier that keeps the mesh, "
         "and measure them again"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def description(cls, _context, properties):

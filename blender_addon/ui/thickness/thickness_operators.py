@@ -25,18 +25,18 @@ from ..base.show import show_colours, shows_colours
 from ..base.translation import say
 from ..base.view_place import edit_faces, show_place, viewport_of
 from ..settings.preferences import memory_limit
-from ..settings.properties import prop, settings_from
-from .thickness_properties import ThicknessProperties, shown_thickness
+from ..settings.properties import prop, settings_from, with_options
+from .thickness_properties import shown_thickness
 
 
-class OBJECT_OT_medial_axis_thickness(SampledOperator, ThicknessProperties, bpy.types.Operator):
+@with_options(THICKNESS_OPTIONS)
+class OBJECT_OT_medial_axis_thickness(SampledOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_thickness"
     bl_label = "Measure Thickness"
     bl_description = (
         "Measure how thick the selected objects are, or how wide their gaps, and show where they are "
         "thinner than the limit"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "thickness"
     check_writable = staticmethod(check_thickness_writable)
