@@ -8,7 +8,9 @@ import itertools
 
 import bpy
 import numpy as np
-from scene import addon, link, positions, select
+from installed import addon
+from measure import positions
+from scene import link, select
 
 NAMES = (
     "",

@@ -4,22 +4,16 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, compute, positions, result_of, select
+from installed import addon
+from measure import attribute, positions, result_of
+from scene import added, box, compute, select
 
 EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 
 
-def box():
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    thing = bpy.context.object
-    thing.scale = (3.0, 2.0, 1.0)
-    bpy.context.view_layer.update()
-    return thing
-
-
 @pytest.fixture
 def result():
-    source = box()
+    source = box(3.0, 2.0, 1.0)
     before = sorted(attribute.name for attribute in source.data.attributes)
     compute(**EVEN)
     assert sorted(attribute.name for attribute in source.data.attributes) == before
@@ -52,8 +46,7 @@ def test_sheets_are_smooth_and_seams_sharp(result):
 
 
 def test_a_sheet_without_seams_needs_no_normals_of_corners():
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
-    source = bpy.context.object
+    source = added("ico_sphere", subdivisions=4)
     source.scale = (3.0, 2.0, 1.0)
     bpy.context.view_layer.update()
     compute(sampling="VERTICES", form="CLEAN", crisp=False)
@@ -77,9 +70,7 @@ def test_colours_by_part_are_live(result):
     panel.by_part = True
     colour = result.data.color_attributes["ma_color"]
     assert colour.domain == "CORNER" and result.data.color_attributes.active_color == colour
-    values = np.empty(4 * len(colour.data), np.float32)
-    colour.data.foreach_get("color", values)
-    assert len(np.unique(values.reshape(-1, 4), axis=0)) == 13
+    assert len(np.unique(attribute(result.data, "ma_color"), axis=0)) == 13
     assert addon("bridge.mesh.colours").colour_range(result) is None
     panel.by_part = False
     assert result.data.color_attributes["ma_color"].domain == "POINT"

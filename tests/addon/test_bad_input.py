@@ -4,19 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    compute,
-    compute_or_not,
-    ellipsoid,
-    link,
-    medial_objects,
-    positions,
-    refuse,
-    reports,
-    result_of,
-    select,
-    sound,
-)
+from measure import medial_objects, positions, reports, result_of, sound
+from scene import compute, compute_or_not, ellipsoid, link, refuse, select
 
 
 def test_nothing_selected():
@@ -47,17 +36,15 @@ def test_transform_that_is_not_finite():
 
 def test_duplicates_are_merged_and_counted():
     points = np.random.default_rng(4).normal(size=(60, 3)).astype(np.float32)
-    source = link("Twice", np.concatenate([points, points[:25]]))
-    compute(side="BOTH")
-    assert result_of(source)["ma_duplicates"] == 25 and result_of(source)["ma_points"] == 85
-    sound(result_of(source))
+    result = compute(link("Twice", np.concatenate([points, points[:25]])), side="BOTH")
+    assert result["ma_duplicates"] == 25 and result["ma_points"] == 85
+    sound(result)
 
 
 def test_cloud_far_from_the_origin():
     points = np.random.default_rng(8).normal(size=(80, 3)).astype(np.float32)
-    source = link("Far", points + np.float32(1e6))
-    compute(side="BOTH")
-    sound(result_of(source))
+    result = compute(link("Far", points + np.float32(1e6)), side="BOTH")
+    sound(result)
     moved = link("Moved", points)
     moved.location = (1e6, 1e6, 1e6)
     compute(side="BOTH")

@@ -12,7 +12,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import MODULE, addon, ellipsoid, link, program, scan, select, torus
+from installed import MODULE, addon, program
+from scene import ellipsoid, link, scan, select, torus
 
 FOLDER = Path(addon().__file__).resolve().parent
 

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from scene import MODULE, compute, program, torus
+from installed import MODULE, program
+from scene import compute, torus
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "user_guide.md")

@@ -4,7 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, link, medial_objects, select
+from installed import addon
+from measure import medial_objects
+from scene import compute, link, select
 
 EACH = {"form": "CLEAN", "sampling": "SURFACE", "samples": 800, "each_part": True}
 

@@ -8,17 +8,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    compute,
-    link,
-    positions,
-    reports,
-    select,
-    torus,
-    world_positions,
-)
+from installed import addon
+from measure import attribute, positions, reports, world_positions
+from scene import compute, link, select, torus
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 BEFORE_4 = bpy.app.version < (4, 0, 0)

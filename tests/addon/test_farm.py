@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from scene import MODULE, addon, program
+from installed import MODULE, addon, program
 from test_cli import in_blender, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"

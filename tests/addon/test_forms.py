@@ -6,24 +6,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    analyses,
-    attribute,
-    compute,
-    link,
-    positions,
-    result_of,
-    select,
-    suzanne,
-)
-
-
-def loose_edges(mesh):
-    """(w, 2) the ends of the edges without a face."""
-    of_faces = {i for polygon in mesh.polygons for i in polygon.edge_keys}
-    ends = [tuple(edge.vertices) for edge in mesh.edges]
-    return np.array([e for e in ends if tuple(sorted(e)) not in of_faces], int).reshape(-1, 2)
+from installed import addon
+from measure import analyses, attribute, loose_edges, positions, result_of
+from scene import added, compute, link, select, suzanne
 
 
 def pair():
@@ -50,8 +35,7 @@ def clean(**settings):
 
 
 def test_clean_is_the_default():
-    bpy.ops.mesh.primitive_cube_add()
-    source = bpy.context.object
+    source = added("cube")
     bpy.ops.object.medial_axis()
     result = result_of(source)
     assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
@@ -72,9 +56,7 @@ def test_attributes_of_faces_and_of_loose_edges():
         values = attribute(mesh, name)
         assert len(values) == len(mesh.polygons) and (values > 0).all()
     assert (attribute(mesh, "ma_erosion") <= attribute(mesh, "ma_sheet")).all()
-    exact = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.attributes["ma_exact"].data.foreach_get("vector", exact)
-    moved = np.linalg.norm(exact.reshape(-1, 3) - positions(mesh), axis=1)
+    moved = np.linalg.norm(attribute(mesh, "ma_exact") - positions(mesh), axis=1)
     assert moved.max() < 0.2 and len(attribute(mesh, "ma_exact_radius")) == len(mesh.vertices)
     assert mesh.validate() is False
 

@@ -8,7 +8,9 @@ import random
 import bpy
 import numpy as np
 import pytest
-from scene import addon, ellipsoid, positions, result_of, select
+from installed import addon
+from measure import positions, result_of
+from scene import ellipsoid, reopened, select
 from support.fuzz import repeats
 
 NAME = "Source"
@@ -112,9 +114,7 @@ class History:
             bpy.ops.ed.undo()
 
     def save(self):
-        path = bpy.app.tempdir + "history.blend"
-        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False)
-        bpy.ops.wm.open_mainfile(filepath=path)
+        reopened(bpy.app.tempdir + "history.blend")
         self.undone = []
         self.push()
 

@@ -10,7 +10,9 @@ import random
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, ellipsoid, positions, select, torus
+from installed import addon
+from measure import attribute, evaluated, positions
+from scene import ellipsoid, select, torus
 from support.fuzz import repeats
 
 TRAVELLER = "which_vertex"
@@ -69,7 +71,7 @@ def add_traveller(source):
 
 def travelled(source):
     """(n,) the vertex of the mesh that each evaluated vertex was, or -1 for those that modifiers made."""
-    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    mesh = evaluated(source)
     found = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.attributes[TRAVELLER].data.foreach_get("vector", found)
     found, numbers = found.reshape(-1, 3), None

@@ -5,20 +5,10 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    compute,
-    on_ellipsoid,
-    positions,
-    refuse,
-    reports,
-    result_of,
-    scan,
-    select,
-    torus,
-    world_positions,
-)
+from installed import addon
+from measure import attribute, positions, reports, result_of, world_positions
+from scene import compute, refuse, scan, select, torus
+from support.clouds import on_ellipsoid
 from test_rows import rows, seen
 from test_transforms import PLACES, place
 

@@ -6,22 +6,19 @@ import re
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils.kdtree import KDTree
-from scene import (
-    addon,
+from measure import (
     attribute,
-    compute,
     contents,
-    ellipsoid,
-    link,
+    evaluated,
     positions,
     reports,
     result_of,
-    select,
-    suzanne,
     triangles_of,
+    volume,
 )
-from test_nodes import evaluated, volume
+from scene import box, compute, ellipsoid, refuse, select, suzanne
 
 
 def reduced_of(source):
@@ -128,14 +125,7 @@ def test_without_an_axis_it_says_so():
     source = ellipsoid()
     select(source)
     assert not bpy.ops.object.medial_axis_reduce.poll()
-    with pytest.raises(RuntimeError, match="Select a medial axis"):
-        bpy.ops.object.medial_axis_reduce()
-
-
-def box():
-    corners = [(x, y, z) for x in (-1, 1) for y in (-0.7, 0.7) for z in (-0.4, 0.4)]
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return link("Box", corners, faces)
+    refuse("Select a medial axis", "medial_axis_reduce")
 
 
 def faces_of(mesh):
@@ -143,7 +133,7 @@ def faces_of(mesh):
 
 
 def test_a_box_is_thirteen_polygons_as_the_library_makes_them():
-    source = box()
+    source = box(2.0, 1.4, 0.8)
     compute(form="CLEAN", side="INNER", sampling="SURFACE", samples=3000)
     made = reduce(source, 100)
     assert (len(made.data.vertices), len(made.data.polygons)) == (12, 13)

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import MODULE, addon, compute, ellipsoid, link, result_of
+from installed import MODULE, addon
+from scene import compute, ellipsoid, link
 
 SAMPLING = (
     "sampling",
@@ -74,9 +75,7 @@ def test_disable_removes_everything_and_enable_brings_it_back():
         ]
         bpy.ops.preferences.addon_enable(module=MODULE)
         assert all(present().values()), present()
-    source = ellipsoid()
-    compute()
-    assert result_of(source) is not None
+    assert compute(ellipsoid()) is not None
 
 
 def test_registration_leaves_the_file_alone():

@@ -8,7 +8,8 @@ import time
 
 import bpy
 import pytest
-from scene import MODULE, compute, program, select, torus
+from installed import MODULE, program
+from scene import compute, select, torus
 
 # Exports the active object to the file named after `--`, again and again.
 EXPORT_FOREVER = f"""

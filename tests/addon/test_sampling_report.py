@@ -4,18 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    contents,
-    ellipsoid,
-    link,
-    positions,
-    refuse,
-    select,
-    suzanne,
-    triangles_of,
-)
+from installed import addon
+from measure import attribute, contents, positions, triangles_of
+from scene import added, ellipsoid, link, refuse, select, suzanne
 
 REPORT = "medial_axis_sampling_report"
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
@@ -30,8 +21,7 @@ def report(source, **settings):
 
 
 def cylinder():
-    bpy.ops.mesh.primitive_cylinder_add()
-    return bpy.context.object
+    return added("cylinder")
 
 
 def test_report_is_the_samples_with_their_attributes():

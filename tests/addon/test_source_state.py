@@ -4,7 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, result_of, select, torus
+from installed import addon
+from measure import result_of
+from scene import added, compute, ellipsoid, select, torus
 
 KINDS = {
     "curve": lambda: bpy.ops.curve.primitive_bezier_circle_add(),
@@ -221,8 +223,7 @@ def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for()
 def test_what_automatic_turns_on_by_itself_is_no_change_of_settings():
     """Between walls that nearly touch, samples lie in pairs on flat faces, whatever was asked."""
     properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=1.0, depth=0.01)
-    source = bpy.context.object
+    source = added("cylinder", vertices=64, radius=1.0, depth=0.01)
     source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     result = result_of(source)

@@ -20,7 +20,9 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, link, medial_objects, select
+from installed import addon
+from measure import analyses, medial_objects, positions
+from scene import link, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
@@ -532,13 +534,7 @@ def live_result():
 
 def followed():
     """How wide the result is in X."""
-    return float(np.ptp(positions_of(live_result())[:, 0]))
-
-
-def positions_of(thing):
-    found = np.empty(3 * len(thing.data.vertices), np.float32)
-    thing.data.vertices.foreach_get("co", found)
-    return found.reshape(-1, 3)
+    return float(np.ptp(positions(live_result().data)[:, 0]))
 
 
 def changed_since():
@@ -773,19 +769,6 @@ def scene_what_comes_after():
     with bpy.context.temp_override(window=window(), area=viewport(), object=source):
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield from look_after(1.5, "9-nodes")
-
-
-def measured(limit):
-    """Measure the thickness of the active object by the panel."""
-    source = bpy.context.object
-    bpy.context.scene.medial_axis_thickness.limit = limit
-    yield from open_tab()
-    yield from fold(THICKNESS)
-    yield from pressed(
-        MEASURE_THICKNESS,
-        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
-    )
-    yield patience(1.0)
 
 
 def until(condition):
