@@ -4,6 +4,7 @@
 import ctypes
 import importlib
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -20,6 +21,14 @@ def program():
     if not bpy.app.binary_path:
         pytest.skip("this is Blender as a module; it has no program")
     return bpy.app.binary_path
+
+
+def succeeded(command, **options):
+    """Run another program, which must succeed; returns the text that it prints."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, **options)
+    assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
+    return done.stdout
 
 
 def addon(path=""):

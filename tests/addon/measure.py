@@ -4,6 +4,7 @@
 import ctypes
 import re
 import sys
+import time
 
 import bmesh
 import bpy
@@ -134,6 +135,17 @@ def contents():
     first = (data.objects, data.meshes, data.materials, data.collections)
     others = (data.curves, data.armatures, data.actions)
     return [sorted(thing.name for thing in kind) for kind in (*first, *others)]
+
+
+def watched(job):
+    """Wait for a job, whose fraction never falls; what it said meanwhile: [(stage, text), ...]."""
+    seen, fractions = [], []
+    while not job.done:
+        fractions.append(job.fraction)
+        seen.append((job.stage, job.text))
+        time.sleep(0.002)
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
+    return seen
 
 
 def flush():

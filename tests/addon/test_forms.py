@@ -9,6 +9,7 @@ import pytest
 from installed import addon
 from measure import analyses, attribute, loose_edges, positions, result_of
 from scene import added, compute, link, select, suzanne
+from test_export_blender import READ_PLY, imported
 
 
 def pair():
@@ -135,25 +136,16 @@ def export(source, path):
     assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
 
 
-def imported(path):
-    before = set(bpy.data.objects)
-    if path.suffix == ".obj":
-        bpy.ops.wm.obj_import(filepath=str(path), forward_axis="Y", up_axis="Z")
-    elif "ply_import" in dir(bpy.ops.wm):
-        bpy.ops.wm.ply_import(filepath=str(path))
-    else:
-        bpy.ops.import_mesh.ply(filepath=str(path))
-    (thing,) = set(bpy.data.objects) - before
-    return thing.data
-
-
-@pytest.mark.parametrize("suffix", [".ply", ".obj"])
-def test_importers_of_blender_read_the_edges(tmp_path, suffix):
+@pytest.mark.parametrize(
+    ("suffix", "operator", "options"),
+    [(".ply", READ_PLY, {}), (".obj", "wm.obj_import", {"forward_axis": "Y", "up_axis": "Z"})],
+)
+def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options):
     source = pair()
     clean(smooth=False)
     mesh, path = result_of(source).data, tmp_path / f"axis{suffix}"
     export(source, path)
-    again = imported(path)
+    again = imported(operator, path, **options).data
     assert (len(again.polygons), len(again.edges)) == (len(mesh.polygons), len(mesh.edges))
     ours, theirs = positions(mesh), positions(again)
 

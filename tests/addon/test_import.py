@@ -36,6 +36,14 @@ def read(path, *more, **options):
     return operator(filepath=str(path), **options)
 
 
+def activate(collection):
+    """Link a collection to the scene, and let new objects come into it."""
+    bpy.context.scene.collection.children.link(collection)
+    layer = bpy.context.view_layer.layer_collection.children[collection.name]
+    bpy.context.view_layer.active_layer_collection = layer
+    return layer
+
+
 def normals_of(thing):
     return addon("bridge.mesh.attributes").read_normals(thing.data.attributes)
 
@@ -70,9 +78,7 @@ def test_faces(folder, capfd):
 def test_what_is_imported_is_selected_alone_and_active(folder):
     other = link("Other", [(0, 0, 0)])
     collection = bpy.data.collections.new("Active")
-    bpy.context.scene.collection.children.link(collection)
-    layer = bpy.context.view_layer.layer_collection.children["Active"]
-    bpy.context.view_layer.active_layer_collection = layer
+    activate(collection)
     read(folder / "scan.xyz", folder / "oriented.xyzn")
     names = [thing.name for thing in bpy.context.selected_objects]
     assert sorted(names) == ["oriented", "scan"] and not other.select_get()
@@ -88,11 +94,7 @@ def test_import_leaves_edit_mode(folder):
 
 
 def test_collection_that_is_not_shown(folder):
-    collection = bpy.data.collections.new("Hidden")
-    bpy.context.scene.collection.children.link(collection)
-    layer = bpy.context.view_layer.layer_collection.children["Hidden"]
-    bpy.context.view_layer.active_layer_collection = layer
-    layer.exclude = True
+    activate(bpy.data.collections.new("Hidden")).exclude = True
     assert read(folder / "scan.xyz") == {"FINISHED"}
     assert "scan" in bpy.data.objects and bpy.data.objects["scan"].users_collection
 
@@ -105,9 +107,7 @@ def test_collection_of_another_file(folder):
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     with bpy.data.libraries.load(str(folder / "a.blend"), link=True) as (_, loaded):
         loaded.collections = ["Theirs"]
-    bpy.context.scene.collection.children.link(bpy.data.collections["Theirs"])
-    layer = bpy.context.view_layer.layer_collection.children["Theirs"]
-    bpy.context.view_layer.active_layer_collection = layer
+    activate(bpy.data.collections["Theirs"])
     assert bpy.context.collection.library is not None
     read(folder / "scan.xyz")
     assert bpy.context.object.users_collection == (bpy.context.scene.collection,)

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import MODULE, addon
-from measure import analyses, medial_objects
+from measure import analyses, medial_objects, watched
 from scene import compute, ellipsoid, refuse, select
 
 
@@ -42,12 +42,7 @@ def wait(job, seconds=120):
 
 def test_job_reports_stages_and_a_fraction_that_never_falls():
     job = addon("core.machine.job").Job([task(name="One"), task(20_000, name="Two")])
-    seen = []
-    while not job.done:
-        seen.append((job.fraction, job.text))
-        time.sleep(0.002)
-    fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
+    seen = watched(job)
     assert any(text.startswith("One, 1 of 2: Delaunay triangulation, ") for _, text in seen)
     assert any(text.startswith("Two, 2 of 2: ") for _, text in seen)
     assert len({text.split(", ")[1] for _, text in seen}) > 3, seen
@@ -58,13 +53,9 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
 def test_a_draft_comes_first_and_the_stages_have_four_words():
     core, doing = addon("core.machine.job"), addon("ui.base.plain_words").doing
     tasks = [core.Task("One", task().work, lambda _: "quick"), task(20_000, name="Two")]
-    job, words, fractions = core.Job(tasks), set(), []
-    while not job.done:
-        fractions.append(job.fraction)
-        words.add(doing(job.stage).removeprefix("1 of 2: ").removeprefix("2 of 2: "))
-        time.sleep(0.002)
+    job = core.Job(tasks)
+    words = {doing(stage).rpartition(" of 2: ")[2] for stage, _ in watched(job)}
     assert words <= {"Sampling", "Building", "Cleaning", "Drawing"} and len(words) > 1
-    assert fractions == sorted(fractions) and fractions[-1] <= 1
     assert [outcome.value for outcome in job.drafts] == ["quick"]
     assert [outcome.value.points for outcome in job.outcomes()] == [60_000, 20_000]
 

@@ -7,6 +7,7 @@ from installed import MODULE, addon
 from measure import analyses, reports, result_of
 from scene import compute, compute_or_not, ellipsoid, refuse, scan, select
 from support.clouds import on_ellipsoid
+from test_registration import assert_shows
 
 MEGABYTE = 1 << 20
 
@@ -44,16 +45,7 @@ def test_preferences_are_what_settings_say():
         "cache_size": settings.CACHE_SIZE,
         **addon("core.machine.memory_limit").LIMITS,
     }.items():
-        shown = preferences().bl_rna.properties[name]
-        assert (shown.name, shown.description) == (option.label, option.description)
-        if shown.type == "ENUM":
-            assert shown.default == option.default.name
-        else:
-            assert (shown.default, shown.hard_min, shown.hard_max) == (
-                option.default,
-                option.minimum,
-                option.maximum,
-            )
+        assert_shows(preferences().bl_rna.properties[name], option)
     assert cache().room == settings.CACHE_SIZE.default * MEGABYTE
 
 

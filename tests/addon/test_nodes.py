@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The groups of Geometry Nodes: what they make of an axis, in this Blender as in any other."""
 
-import subprocess
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-from installed import MODULE, addon, program
+from installed import MODULE, addon, program, succeeded
 from measure import attribute, evaluated, result_of, volume
 from scene import compute, ellipsoid, link, refuse, select, torus
 
@@ -289,6 +288,5 @@ def test_a_file_evaluates_without_the_add_on(tmp_path):
     file = tmp_path / "two.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     words = [program(), "--background", "--factory-startup", str(file), "--python-expr", COUNT]
-    done = subprocess.run(words, capture_output=True, text=True)
-    assert f"COUNTED {expected}\n" in done.stdout, done.stdout + done.stderr
+    assert f"COUNTED {expected}\n" in succeeded(words)
     assert expected > 100

@@ -37,12 +37,15 @@ def oriented(name="Oriented", flip=1.0):
     return scan(name, points, flip * normals)
 
 
-def open_oriented():
-    """An open mesh whose points have normals."""
-    source = opened()
+def with_normals(source):
+    """An ellipsoid whose points have normals."""
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
     addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
     return source
+
+
+def open_oriented():
+    return with_normals(opened())
 
 
 @pytest.mark.parametrize(
@@ -85,10 +88,7 @@ def test_automatic_says_which_and_why(make, sides, sentence):
 
 @pytest.mark.parametrize("sides", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"])
 def test_chosen_source_is_used_although_all_are_there(sides):
-    source = ellipsoid()
-    normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
-    addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
-    result = compute(sides=sides)
+    result = compute(with_normals(ellipsoid()), sides=sides)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
     samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
     assert samples.analysis.sides_from.name == sides
