@@ -29,12 +29,11 @@ _DRAIN = "Medial Axis Drain"  # the modifier
 _AROUND = 48  # corners of the cylinder
 
 HOLLOW = Product(" Hollow", (stored.HOLLOW_WALL,))
-is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
 
 
 def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
     """The solid that was hollowed, as long as it is there; any other object is returned as it is."""
-    source = source_of(thing) if is_hollow(thing) else None
+    source = source_of(thing) if HOLLOW.has(thing) else None
     return thing if source is None or is_gone(source) else source
 
 

@@ -30,7 +30,7 @@ _TABLE = (
 
 THICK_PARTS = Product(" Thick Parts", (stored.THICK_FACES,))
 MID_SURFACE = Product(" Mid-Surface", (stored.MID_SHEETS,), material=thickness_material)
-is_mid_surface, mid_surface_of, is_thick = MID_SURFACE.has, MID_SURFACE.of, THICK_PARTS.has
+is_mid_surface, is_thick = MID_SURFACE.has, THICK_PARTS.has
 
 
 def check_mid_surface_writable(source: bpy.types.Object) -> None:

@@ -21,7 +21,6 @@ from .thickness.thicken_modifier import selected_triangles
 _TABLE = (Attribute("ma_wall", "walls", "POINT", "FLOAT", np.float32),)
 
 SOLID = Product(" Solid", (stored.SOLID_WALL,))
-is_solid, solid_of, check_solid_writable = SOLID.has, SOLID.of, SOLID.check_writable
 
 
 def chosen_triangles(source: bpy.types.Object) -> Flags:

@@ -3,6 +3,7 @@
 they run in one go."""
 
 import time
+from dataclasses import dataclass
 from functools import partial
 
 import bpy
@@ -14,6 +15,7 @@ from ...bridge.objects.step_back import seen
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task, run_task
 from ...core.settings import OPTIONS
+from ...core.shape.shape import Shape
 from ..base import current_job
 from ..base.plain_words import told, warned
 from ..base.select_made import select_made
@@ -45,6 +47,17 @@ class Alone:
         default=False,
         options={"SKIP_SAVE"},
     )
+
+
+@dataclass(frozen=True)
+class Read:
+    """A shape, and what else was read of its object for `work`; the base of what operators add."""
+
+    shape: Shape
+
+    @property
+    def frame(self):
+        return self.shape.frame
 
 
 class ComputeOperator(FromSelection, WatchedJob):

@@ -38,9 +38,8 @@ from ...core.settings import (
     LimbControl,
     SkeletonSettings,
 )
-from ...core.shape.shape import Shape
 from ...core.skeleton.compute import compute_skeleton
-from ..axis.compute_operator import SampledOperator
+from ..axis.compute_operator import Read, SampledOperator
 from ..base.translation import say
 from ..settings.preferences import memory_limit
 from ..settings.properties import (
@@ -63,16 +62,11 @@ class SkeletonProperties:
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _Wanted(Read):
     """A shape, the ends on it that are kept, and the settings of the curve that is shown of it, if there are any."""
 
-    shape: Shape
     ends: object
     shown: object
-
-    @property
-    def frame(self):
-        return self.shape.frame
 
 
 class SkeletonOperator(SampledOperator, SkeletonProperties):

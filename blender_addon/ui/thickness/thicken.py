@@ -21,22 +21,17 @@ from ...core.samples.density import share_text
 from ...core.settings import LOOKS, THICKEN_OPTIONS, Moving, ThickenSettings
 from ...core.thickness.thicken import Thickened, thicken
 from ...core.thickness.thin_in_part import DIVISIONS, faces_to_divide
-from ..axis.compute_operator import SampledOperator
+from ..axis.compute_operator import Read, SampledOperator
 from ..settings.preferences import memory_limit
 from ..settings.properties import prop, settings_from, with_options
 
 
 @dataclass(frozen=True)
-class _Walls:
+class _Walls(Read):
     """A shape, which of its triangles are selected, and how the faces of the mesh were divided for it."""
 
-    shape: object
     selected: object
     divisions: tuple[Division, ...]
-
-    @property
-    def frame(self):
-        return self.shape.frame
 
 
 @dataclass(frozen=True)
