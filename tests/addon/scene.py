@@ -146,6 +146,18 @@ def reopened(path):
     bpy.ops.wm.open_mainfile(filepath=str(path))
 
 
+def export(path, **options):
+    """Write the active object's axis or balls to a file."""
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path), **options) == {"FINISHED"}
+
+
+def refuse_export(match, path, **options):
+    """The same raises one sentence, and leaves the folder as it was."""
+    before = sorted(path.parent.iterdir())
+    refuse(match, "export_scene.medial_axis", filepath=str(path), **options)
+    assert sorted(path.parent.iterdir()) == before
+
+
 @contextlib.contextmanager
 def in_edit_mode():
     """The active object is in edit mode meanwhile."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import attribute, positions, result_of
-from scene import added, box, compute, select
+from scene import added, box, compute, export, select
 
 EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 
@@ -118,7 +118,7 @@ def test_other_forms_have_no_parts(result):
 
 def test_a_table_is_exported(result, tmp_path):
     select(result)
-    bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "parts.csv"))
+    export(tmp_path / "parts.csv")
     rows = (tmp_path / "parts.csv").read_text().splitlines()
     assert rows[0].startswith("part,patch_a,patch_b,area") and len(rows) == 14
 

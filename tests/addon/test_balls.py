@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import attribute, contents, evaluated, positions, reports, result_of
-from scene import compute, ellipsoid, refuse, select, torus
+from scene import compute, ellipsoid, export, refuse_export, select, torus
 
 
 def balls_of(source):
@@ -71,14 +71,14 @@ def test_balls_are_written(tmp_path, capfd):
     select(source)
     made = cover(count=7)
     path = tmp_path / "torus.json"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     assert reports(capfd)[-1][1] == "Wrote 7 balls to 'torus.json'"
     known = json.loads(path.read_text())
     assert known["covered"] == made["ma_balls_covered"] and len(known["balls"]) == 7
     first = np.array(known["balls"][0]["centre"])
     assert np.allclose(first, made.matrix_world @ made.data.vertices[0].co)
     made.data.vertices[0].co.x += 1.0  # the figures are of other balls now
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     known = json.loads(path.read_text())
     assert known["covered"] is known["outside"] is known["farthest"] is None
     assert known["balls"][0]["centre"][0] == pytest.approx(first[0] + 1.0)
@@ -89,24 +89,16 @@ def test_an_axis_is_written_as_balls(tmp_path):
     compute(side="INNER")
     select(source)
     path = tmp_path / "torus.ma"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path), balls=6, mode="AROUND") == {
-        "FINISHED"
-    }
+    export(path, balls=6, mode="AROUND")
     rows = np.loadtxt(path, skiprows=1, usecols=(1, 2, 3, 4))
     made = cover(count=6, mode="AROUND")
     world = positions(made.data) @ np.array(made.matrix_world)[:3, :3].T
     assert np.allclose(rows, np.column_stack([world, attribute(made.data, "ma_radius")]), atol=1e-5)
     select(result_of(source))
-    refuse(
-        ".mjcf or .xml, found 'a.ply'",
-        "export_scene.medial_axis",
-        filepath=str(tmp_path / "a.ply"),
-        balls=6,
-    )
-    refuse("found 'a.json'", "export_scene.medial_axis", filepath=str(tmp_path / "a.json"))
-    assert list(tmp_path.iterdir()) == [path]
+    refuse_export(".mjcf or .xml, found 'a.ply'", tmp_path / "a.ply", balls=6)
+    refuse_export("found 'a.json'", tmp_path / "a.json")
     bpy.data.objects.remove(source)
-    refuse("found that it is gone", "export_scene.medial_axis", filepath=str(path), balls=6)
+    refuse_export("found that it is gone", path, balls=6)
 
 
 def test_the_spheres_are_the_balls():
@@ -154,25 +146,19 @@ def test_capsules_are_written(tmp_path, capfd):
     select(source)
     made = cover(count=9, shapes="CAPSULES")
     path = tmp_path / "torus.json"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     assert reports(capfd)[-1][1] == f"Wrote {len(made.data.edges)} capsules to 'torus.json'"
     known = json.loads(path.read_text())
     assert known["covered"] == made["ma_balls_covered"]
     first = [made.matrix_world @ made.data.vertices[v].co for v in made.data.edges[0].vertices]
     assert np.allclose(known["capsules"][0]["ends"], first, atol=1e-5)
     robot = tmp_path / "torus.urdf"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(robot)) == {"FINISHED"}
+    export(robot)
     assert robot.read_text().count("<cylinder") == len(made.data.edges)
     cover(count=9, shapes="TAPERED")
-    refuse(
-        "found tapered capsules; set Shapes to Capsules",
-        "export_scene.medial_axis",
-        filepath=str(tmp_path / "b.urdf"),
-    )
+    refuse_export("found tapered capsules; set Shapes to Capsules", tmp_path / "b.urdf")
     compute(side="INNER")
     select(source)
     arm = tmp_path / "arm.mjcf"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(arm), balls=9, shapes="CAPSULES") == {
-        "FINISHED"
-    }
+    export(arm, balls=9, shapes="CAPSULES")
     assert arm.read_text().count('type="capsule"') >= 3

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import analyses, attribute, loose_edges, positions, result_of
-from scene import added, compute, link, select, suzanne
+from scene import added, compute, export, link, select, suzanne
 from test_export_blender import READ_PLY, imported
 
 
@@ -131,9 +131,9 @@ def test_detail_of_a_curve_acts_at_once():
 # --- files
 
 
-def export(source, path):
+def export_axis(source, path):
     select(result_of(source))
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +144,7 @@ def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options
     source = pair()
     clean(smooth=False)
     mesh, path = result_of(source).data, tmp_path / f"axis{suffix}"
-    export(source, path)
+    export_axis(source, path)
     again = imported(operator, path, **options).data
     assert (len(again.polygons), len(again.edges)) == (len(mesh.polygons), len(mesh.edges))
     ours, theirs = positions(mesh), positions(again)
@@ -160,7 +160,7 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
     source = pair()
     clean(smooth=False)
     mesh = result_of(source).data
-    export(source, tmp_path / "Pair_0001.npz")
+    export_axis(source, tmp_path / "Pair_0001.npz")
     write_sequence = addon("bridge.skeleton.sequence_objects").write_sequence
     (thing,) = write_sequence("Pair", {1: Path(tmp_path / "Pair_0001.npz")}).objects
     assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mathutils import Vector
 from measure import world_positions
-from scene import added, refuse, select
+from scene import added, select
 
 WALL, VOXEL = 0.3, 0.15
 
@@ -79,8 +79,3 @@ def test_a_second_click_on_the_result_hollows_its_source_again():
         assert bpy.ops.object.medial_axis_hollow(wall=0.2, voxel_size=0.1) == {"FINISHED"}
         assert bpy.context.selected_objects == [made] and set(bpy.data.objects) == before
     assert shown(made)[0] == pytest.approx(8 - 1.6**3, rel=0.01)
-
-
-def test_what_cannot_be_hollow_changes_nothing():
-    added("plane", size=2)
-    refuse("one plane; give them", operator="medial_axis_hollow", wall=0.1)

@@ -9,7 +9,7 @@ import pytest
 from installed import addon
 from mathutils import Matrix
 from measure import attribute, evaluated, medial_objects, positions, result_of, world_positions
-from scene import added, compute, ellipsoid, link, ring, select, suzanne, torus
+from scene import added, compute, ellipsoid, export, link, ring, select, suzanne, torus
 from support.messy import crossing_plates
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
@@ -391,7 +391,7 @@ def test_crumbs_are_hidden_and_counted():
 
 def test_exports_are_those_of_the_mesh(tmp_path):
     _, result = curve_of_a_torus()
-    assert bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "axis.ma")) == {"FINISHED"}
+    export(tmp_path / "axis.ma")
     vertices, edges, faces = map(int, (tmp_path / "axis.ma").read_text().split()[:3])
     assert (vertices, faces) == (len(result.data.vertices), 0) and edges == len(result.data.edges)
 
@@ -421,13 +421,9 @@ def test_one_node_group_for_all():
 
 def viewport():
     """(window, area) of a 3D viewport; a Blender without a window has its screens, too."""
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    return window, area
-    pytest.skip("this Blender has no window")
-    return None
+    windows = [window for manager in bpy.data.window_managers for window in manager.windows]
+    found = [(w, area) for w in windows for area in w.screen.areas if area.type == "VIEW_3D"]
+    return found[0] if found else pytest.skip("this Blender has no window")
 
 
 def test_show_colours_goes_and_comes_back():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import evaluated, volume
-from scene import link, plate, refuse, select
+from scene import link, plate, select
 
 T = 0.05
 
@@ -99,11 +99,6 @@ def test_thick_parts_are_an_object_of_their_own_by_choice():
     select(kept)  # it stands for what it was made of
     unsolidify()
     assert "Bar Thick Parts" not in bpy.data.objects and "Bar Mid-Surface" in bpy.data.objects
-
-
-def test_a_block_has_no_sheets():
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    refuse("found none", operator="medial_axis_unsolidify", samples=4000)
 
 
 def test_it_is_seen_also_where_the_thickness_was_measured_on_a_copy():

@@ -18,7 +18,7 @@ from measure import (
     triangles_of,
     volume,
 )
-from scene import box, compute, ellipsoid, refuse, select, suzanne
+from scene import box, compute, ellipsoid, export, refuse, select, suzanne
 
 
 def reduced_of(source):
@@ -107,7 +107,7 @@ def test_it_is_exported(tmp_path):
     made = reduce(source, 20)
     select(made)
     path = tmp_path / "small.ma"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     read = addon("core.files.read_ma").read_ma(path)
     assert np.allclose(read.vertices, positions(made.data), atol=1e-6)
 

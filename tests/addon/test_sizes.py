@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import contents, result_of
+from measure import contents, positions, result_of
 from scene import ellipsoid, select, torus
 
 FEW = {"sampling": "SURFACE", "samples": 1_000}
@@ -83,6 +83,11 @@ def everything():
     return [*contents(), own, attributes]
 
 
+def own_of(source):
+    """The places, attributes and properties of a source, which only thickness changes."""
+    return positions(source.data).tobytes(), source.data.attributes.keys(), dict(source.items())
+
+
 @pytest.mark.parametrize("name", [*(f"object.{name}" for name in OPERATORS), *OTHERS])
 def test_one_step_of_undo(name, tmp_path):
     bpy.context.preferences.edit.use_global_undo = True
@@ -100,11 +105,12 @@ def test_one_step_of_undo(name, tmp_path):
             bpy.ops.object.medial_axis(form="CLEAN", side="INNER", **FEW)
     select(source)
     bpy.ops.ed.undo_push(message="Scene is set")
-    before = everything()
+    before, own = everything(), own_of(source)
     group, _, operator = name.partition(" ")[0].partition(".")
     done = getattr(getattr(bpy.ops, group), operator)("EXEC_DEFAULT", True, **options)
     made = everything()
     assert done == {"FINISHED"} and made != before
+    assert own_of(source) == own or "thickness" in name
     if name.endswith("on the source"):
         assert made[0] == before[0] and "ma_thickness" in source.data.attributes
     bpy.ops.ed.undo()

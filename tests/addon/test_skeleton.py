@@ -207,11 +207,6 @@ def test_parts_on_the_faces_of_the_source():
         assert (part[far] == number).all()
 
 
-def test_parts_are_refused_where_there_are_no_faces():
-    ring()
-    refuse("turn Parts off", operator="medial_axis_skeleton", parts=True)
-
-
 def test_armature_of_few_connected_bones():
     source = cross()
     make_armature(bind="NONE")

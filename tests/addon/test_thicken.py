@@ -166,31 +166,6 @@ def test_nothing_is_subdivided_where_a_name_is_taken():
     assert len(thing.data.polygons) == 6 and not thing.modifiers
 
 
-def open_mesh():
-    bpy.ops.mesh.primitive_plane_add()
-
-
-def subdivided():
-    plate(0.02).modifiers.new("Subdivision", "SUBSURF")
-
-
-@pytest.mark.parametrize(
-    "make, limit, words",
-    [
-        (lambda: plate(0.02), 0.0, "Expected a limit above 0"),
-        (subdivided, LIMIT, "Expected modifiers that keep the vertices"),
-        (open_mesh, LIMIT, "Expected"),
-        (bpy.ops.curve.primitive_bezier_circle_add, LIMIT, "Expected a mesh of this file"),
-    ],
-)
-def test_what_cannot_be_thickened_is_told_and_left(make, limit, words):
-    make()
-    thing = bpy.context.object
-    before = len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)
-    refuse(words, "medial_axis_thicken", limit=limit)
-    assert (len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)) == before
-
-
 def test_a_thick_solid_stays_without_a_modifier():
     bpy.ops.mesh.primitive_cube_add()
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)

@@ -17,6 +17,7 @@ from scene import (
     in_edit_mode,
     link,
     refuse,
+    ring,
     scan,
     select,
     suzanne,
@@ -312,23 +313,18 @@ def test_feature_size_on_the_source():
 def reordered(kind):
     """A flat ellipsoid whose modifiers keep the number of vertices and change their order."""
     source = ellipsoid(axes=(1.0, 0.7, 0.2), segments=4)
-    if kind == "BUILD":
+    if kind.startswith("BUILD"):
         build = source.modifiers.new("Build", "BUILD")
         build.frame_start, build.frame_duration = 1, 1
         build.use_random_order = True
-        bpy.context.scene.frame_set(10)
-    elif kind == "BUILD REVERSED":
-        build = source.modifiers.new("Build", "BUILD")
-        build.frame_start, build.frame_duration = 1, 1
-        build.use_reverse, build.use_random_order = False, True
-        build.seed = 7
+        build.seed = 7 if kind == "BUILD OTHERWISE" else build.seed
         bpy.context.scene.frame_set(10)
     elif kind == "DEFORM":
         source.modifiers.new("Cast", "CAST").factor = 0.01
     return source
 
 
-@pytest.mark.parametrize("kind", ["BUILD", "BUILD REVERSED", "DEFORM", "NONE"])
+@pytest.mark.parametrize("kind", ["BUILD", "BUILD OTHERWISE", "DEFORM", "NONE"])
 def test_thickness_is_of_the_vertex_that_has_it(kind):
     """Looked up by place: the value of each vertex is that of the measured place where it lies."""
     source = reordered(kind)
@@ -361,31 +357,16 @@ def test_weights_and_parts_are_of_the_vertex_that_has_them(kind):
 
 def test_a_report_is_not_written_on_a_source_in_another_order():
     source = reordered("BUILD")
-    refuse(
-        "keep the order of vertices",
-        "medial_axis_sampling_report",
-        target="SOURCE",
-        sampling="VERTICES",
-    )
+    wanted = {"target": "SOURCE", "sampling": "VERTICES"}
+    refuse("keep the order of vertices", "medial_axis_sampling_report", **wanted)
     assert "ma_epsilon" not in source.data.attributes
     bpy.ops.object.medial_axis_sampling_report(target="COPY", sampling="VERTICES")
 
 
-@pytest.mark.parametrize(
-    "add",
-    [
-        lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(),
-        lambda: bpy.ops.object.metaball_add(),
-        lambda: bpy.ops.curve.primitive_bezier_circle_add(),
-    ],
-    ids=["surface", "metaball", "curve"],
-)
-def test_thickness_of_what_is_no_mesh_is_on_a_copy(add):
+@pytest.mark.parametrize("kind", ["surface.nurbs_surface_torus", "object.metaball", "curve"])
+def test_thickness_of_what_is_no_mesh_is_on_a_copy(kind):
     """It once ended in a traceback after the whole computation."""
-    add()
-    source = bpy.context.object
-    if source.type == "CURVE":
-        source.data.bevel_depth = 0.2
+    source = ring() if kind == "curve" else added(kind)
     assert bpy.ops.object.medial_axis_thickness(samples=2000) == {"FINISHED"}
     carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
     assert carrier != source and carrier["ma_thickness_minimum"] > 0

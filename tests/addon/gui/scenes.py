@@ -429,14 +429,12 @@ def edit_mode_waits():
     yield from stays_without_job(1.5)
     assert followed() == first
     yield from key("Tab")
-    yield lambda: followed() > 1.5 * first
-    yield no_job
+    yield lambda: followed() > 1.5 * first and no_job()
     yield from look_after(0.7, "edited")
     assert not changed_since()
     for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
         yield from key(stroke)
-    yield lambda: abs(followed() - first) < 1e-3
-    yield no_job
+    yield lambda: abs(followed() - first) < 1e-3 and no_job()
     assert bpy.context.object.mode == "OBJECT" and not changed_since()
 
 
@@ -445,18 +443,15 @@ def undo_is_followed():
     first, things = followed(), len(bpy.data.objects)
     yield from key("s")
     xdotool("key", "x", "2", "Return")
-    yield lambda: followed() > 1.5 * first
-    yield no_job
+    yield lambda: followed() > 1.5 * first and no_job()
     for _ in range(2):
         yield from key("ctrl+z")
         assert bpy.context.object.scale.x == 1.0, "one stroke takes back one step"
-        yield lambda: abs(followed() - first) < 1e-3
-        yield no_job
+        yield lambda: abs(followed() - first) < 1e-3 and no_job()
         yield from look_after(1.0, "undone")
         yield from key("ctrl+shift+z")
         assert bpy.context.object.scale.x == 2.0, "redo must know the step after an update"
-        yield lambda: followed() > 1.5 * first
-        yield no_job
+        yield lambda: followed() > 1.5 * first and no_job()
     assert len(bpy.data.objects) == things and not changed_since()
     yield from look_after(1.0, "redone")
 
@@ -498,8 +493,7 @@ def files_keep_it():
     yield from stays_without_job(2.0)
     assert live_result().medial_axis_auto_update and not changed_since()
     bpy.context.object.scale.x = 3.0
-    yield lambda: followed() > 1.2 * first
-    yield no_job
+    yield lambda: followed() > 1.2 * first and no_job()
 
 
 def disabled_while_it_waits():
@@ -513,8 +507,7 @@ def disabled_while_it_waits():
     assert followed() == first and threads() == []
     assert len(bpy.app.handlers.depsgraph_update_post) == len(before) - 1
     bpy.ops.preferences.addon_enable(module=module)
-    yield lambda: followed() < 0.7 * first
-    yield no_job
+    yield lambda: followed() < 0.7 * first and no_job()
 
 
 def deleted_source_ends_it():
