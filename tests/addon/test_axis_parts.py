@@ -21,9 +21,7 @@ def result():
 
 
 def sharp_edges(mesh):
-    values = np.empty(len(mesh.edges), bool)
-    mesh.edges.foreach_get("use_edge_sharp", values)
-    return values
+    return np.array([edge.use_edge_sharp for edge in mesh.edges])
 
 
 def test_attributes_name_the_parts_of_a_box(result):

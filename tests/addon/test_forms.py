@@ -9,7 +9,7 @@ import pytest
 from installed import addon
 from measure import analyses, attribute, loose_edges, positions, result_of
 from scene import added, compute, export, link, select, suzanne
-from test_export_blender import READ_PLY, imported
+from test_export_blender import READERS, imported
 
 
 def pair():
@@ -136,10 +136,7 @@ def export_axis(source, path):
     export(path)
 
 
-@pytest.mark.parametrize(
-    ("suffix", "operator", "options"),
-    [(".ply", READ_PLY, {}), (".obj", "wm.obj_import", {"forward_axis": "Y", "up_axis": "Z"})],
-)
+@pytest.mark.parametrize(("suffix", "operator", "options"), READERS)
 def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options):
     source = pair()
     clean(smooth=False)

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import positions, result_of
+from measure import attribute, positions, result_of
 from scene import ellipsoid, reopened, select
 from support.fuzz import repeats
 
@@ -170,13 +170,8 @@ def figures(result):
     arrays = {"co": positions(mesh).tobytes()}
     arrays["edges"] = sorted(tuple(edge.vertices) for edge in mesh.edges)
     arrays["faces"] = [tuple(face.vertices) for face in mesh.polygons]
-    for found in mesh.attributes:
-        if found.name.startswith("ma_") and found.data_type in ("FLOAT", "INT"):
-            values = np.empty(
-                len(found.data), np.float32 if found.data_type == "FLOAT" else np.int32
-            )
-            found.data.foreach_get("value", values)
-            arrays[found.name] = values.tobytes()
+    ours = [name for name in mesh.attributes.keys() if name.startswith("ma_")]  # noqa: SIM118
+    arrays |= {name: attribute(mesh, name).tobytes() for name in ours}
     names = ("ma_topology", "ma_points", "ma_duplicates", "ma_warnings", "ma_verdict")
     return arrays | {name: result.get(name) for name in names}
 

@@ -72,9 +72,7 @@ def add_traveller(source):
 def travelled(source):
     """(n,) the vertex of the mesh that each evaluated vertex was, or -1 for those that modifiers made."""
     mesh = evaluated(source)
-    found = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.attributes[TRAVELLER].data.foreach_get("vector", found)
-    found, numbers = found.reshape(-1, 3), None
+    found = attribute(mesh, TRAVELLER)
     numbers = np.round(found[:, 0]).astype(np.int64)
     same = (found[:, 0] == numbers) & (found[:, 1] == found[:, 0] ** 2)
     same &= found[:, 2] == np.sqrt(found[:, 0])

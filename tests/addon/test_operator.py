@@ -54,10 +54,8 @@ def assert_holds(thing, axis):
     np.testing.assert_array_equal(attribute(mesh, "ma_rho"), axis.rho.astype(np.float32))
     np.testing.assert_array_equal(attribute(mesh, "ma_side"), axis.side)
     np.testing.assert_array_equal(generators(mesh), axis.generators)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    starts = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
+    corners = [loop.vertex_index for loop in mesh.loops]
+    starts = [polygon.loop_start for polygon in mesh.polygons]
     np.testing.assert_array_equal(corners, axis.face_vertices)
     np.testing.assert_array_equal(starts, axis.face_offsets[:-1])
 

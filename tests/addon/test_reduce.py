@@ -8,16 +8,7 @@ import numpy as np
 import pytest
 from installed import addon
 from mathutils.kdtree import KDTree
-from measure import (
-    attribute,
-    contents,
-    evaluated,
-    positions,
-    reports,
-    result_of,
-    triangles_of,
-    volume,
-)
+from measure import attribute, contents, evaluated, positions, read, reports, result_of, volume
 from scene import box, compute, ellipsoid, export, refuse, select, suzanne
 
 
@@ -138,8 +129,10 @@ def test_a_box_is_thirteen_polygons_as_the_library_makes_them():
     made = reduce(source, 100)
     assert (len(made.data.vertices), len(made.data.polygons)) == (12, 13)
     assert not made.data.validate(verbose=True)
-    points, triangles = positions(source.data).astype(float), triangles_of(source.data)
-    found = addon("library").compute(points, triangles, sampling="surface", samples=3000)
+    shape = read(source)
+    found = addon("library").compute(
+        shape.points, shape.triangles, sampling="surface", samples=3000
+    )
     small = addon("library").reduce(found, 100)
     assert np.array_equal(positions(made.data), small.vertices.astype(np.float32))
     assert np.array_equal(attribute(made.data, "ma_radius"), small.radius.astype(np.float32))

@@ -9,17 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import (
-    analyses,
-    attribute,
-    medial_objects,
-    positions,
-    read,
-    reports,
-    result_of,
-    sound,
-    watched,
-)
+from measure import analyses, attribute, positions, read, reports, result_of, sound, watched
 from scene import added, ring, select, torus
 
 
@@ -265,8 +255,8 @@ def test_scale_is_applied_before_sampling():
 
 
 def test_reports_of_a_click(capfd):
-    bpy.ops.mesh.primitive_cube_add()
-    click(sampling="SURFACE", samples=1_000)
+    source = added("cube")
+    result = click(sampling="SURFACE", samples=1_000)
     infos = [text for kind, text in reports(capfd) if kind == "Info"]
-    assert len(infos) == 1 and len(medial_objects()) == 1
+    assert len(infos) == 1 and set(bpy.data.objects) == {source, result}
     assert infos[0].startswith("Done: 1 piece, ")

@@ -7,17 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import (
-    analyses,
-    attribute,
-    direct,
-    generators,
-    positions,
-    read,
-    reports,
-    result_of,
-    triangles_of,
-)
+from measure import analyses, attribute, direct, generators, positions, read, reports, result_of
 from scene import compute, ellipsoid, opened, scan, select
 from support.clouds import on_ellipsoid
 
@@ -77,7 +67,7 @@ def test_automatic_says_which_and_why(make, sides, sentence):
     module = addon("core.machine.native").load()
     expected = module.MedialAnalysis(
         positions(source.data),
-        triangles_of(source.data) if sides == "SURFACE" else None,
+        read(source).triangles if sides == "SURFACE" else None,
         normals=addon("bridge.mesh.attributes").read_normals(source.data.attributes)
         if sides == "NORMALS"
         else None,

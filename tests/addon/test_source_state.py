@@ -9,16 +9,11 @@ from measure import result_of
 from scene import added, compute, ellipsoid, select, torus
 
 KINDS = {
-    "curve": lambda: bpy.ops.curve.primitive_bezier_circle_add(),
-    "surface": lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(),
-    "text": lambda: bpy.ops.object.text_add(),
-    "metaball": lambda: two_metaballs(),
+    "curve": "curve.bezier_circle",
+    "surface": "surface.nurbs_surface_torus",
+    "text": "object.text",
+    "metaball": "object.metaball",
 }
-
-
-def two_metaballs():
-    bpy.ops.object.metaball_add()
-    bpy.context.object.data.elements.new().co.x = 1.5
 
 
 def has_changed(output):
@@ -96,8 +91,9 @@ def test_edit_mode_and_a_hidden_source_tell_nothing():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_sources_of_other_types(kind):
-    KINDS[kind]()
-    source = bpy.context.object
+    source = added(KINDS[kind])
+    if kind == "metaball":
+        source.data.elements.new().co.x = 1.5
     if kind in ("curve", "text"):
         source.data.bevel_depth = 0.1
         source.data.extrude = 0.1

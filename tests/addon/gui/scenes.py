@@ -13,6 +13,7 @@ import sys
 import threading
 import time
 import traceback
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -22,7 +23,7 @@ from mathutils import Euler, Matrix
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from installed import addon
 from measure import analyses, medial_objects, positions
-from scene import link, select
+from scene import added, link, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
@@ -590,20 +591,10 @@ def text():
     return thing
 
 
-def added(operator):
-    """A function that makes an object by one of Blender's operators."""
-
-    def make():
-        getattr(bpy.ops.mesh, f"primitive_{operator}_add")()
-        return bpy.context.object
-
-    return make
-
-
 MODELS = {
-    "cube": added("cube"),
-    "torus": added("torus"),
-    "suzanne": added("monkey"),
+    "cube": partial(added, "cube"),
+    "torus": partial(added, "torus"),
+    "suzanne": partial(added, "monkey"),
     "text": text,
     "hand": data("hand_closed.obj"),
     "dilo": data("dilo.off"),
