@@ -21,8 +21,9 @@ from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
 from .capsules_shown import add_capsules, is_capsules
 from .mesh import stored
-from .mesh.attributes import RADIUS, read_vectors
+from .mesh.attributes import RADIUS, read_attribute
 from .mesh.material import radius_material
+from .mesh.mesh_arrays import read_edges, read_positions
 from .mesh.write_mesh import new_mesh
 from .nodes.groups import add_coloured_balls, is_group
 from .objects.output_object import Product, check_mode, place, remember
@@ -43,21 +44,7 @@ is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writ
 
 
 def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -> bpy.types.Object:
-    """Make the balls of a source, or update the existing ones; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : BallCover
-    frame : (4, 4) float64
-        Where the balls lie in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        They cannot be changed now, or Blender cannot hold them.
-    """
+    """Make the balls of a source, or update the existing ones."""
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
@@ -87,13 +74,10 @@ def _show(thing: bpy.types.Object, capsules: bool, is_new: bool) -> None:
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:
-    """The balls of an object as they are now, in its own frame; the figures of balls that
-    somebody has changed are unknown.
+    """The balls of an object as they are now, in its own frame; the figures of balls that somebody has changed are
+    unknown.
 
-    Raises
-    ------
-    InvalidInputError
-        The radii are gone, or no ball is left, or somebody is editing them.
+    Raises InvalidInputError where the radii are gone, no ball is left, or somebody is editing them.
     """
     check_mode(thing)
     centres, radii, edges = _rows(thing)
@@ -109,17 +93,13 @@ def read_balls(thing: bpy.types.Object) -> Balls:
 
 def _rows(thing: bpy.types.Object) -> tuple[Floats, Floats, Ints]:
     mesh = thing.data
-    found = mesh.attributes.get(RADIUS.name)
-    if found is None or not len(mesh.vertices):
+    radii = read_attribute(mesh.attributes, RADIUS.name, RADIUS.type, RADIUS.domain)
+    if radii is None or not len(radii):
         raise InvalidInputError(
             f"Expected vertices with the attribute '{RADIUS.name}' on '{thing.name}', found none; "
             "make the balls again"
         )
-    radii = np.empty(len(mesh.vertices), np.float32)
-    found.data.foreach_get("value", radii)
-    edges = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", edges)
-    return read_vectors(mesh.vertices, "co"), radii.astype(np.float64), edges.reshape(-1, 2)
+    return read_positions(mesh), radii.astype(np.float64), read_edges(mesh)
 
 
 def _name_of(*rows: NDArray) -> str:

@@ -13,6 +13,7 @@ from .mesh import stored
 from .mesh.attributes import RADIUS
 from .mesh.material import radius_material
 from .nodes.inputs import has_inputs
+from .nodes.shared import balls, tubes
 from .nodes.tree import Tree
 
 NAME = "Medial Axis Capsules"
@@ -48,36 +49,12 @@ def _new_group() -> bpy.types.NodeTree:
     sides = tree.input("NodeSocketInt", _SIDES, 32, "Of each tube", min_value=3, max_value=256)
     radius = tree.attribute(RADIUS.name)
     whole = tree.node("GeometryNodeJoinGeometry")
-    for part in (_spheres(tree, radius, level), _tubes(tree, radius, sides)):
+    points = tree.node("GeometryNodeMeshToPoints", named={"Mesh": tree.geometry})
+    spheres = tree.node("GeometryNodeRealizeInstances", balls(tree, points, radius, level))
+    lines = tree.node("GeometryNodeMeshToCurve", tree.geometry)
+    for part in (spheres, tubes(tree, lines, radius, sides)):
         tree.group.links.new(part, whole.node.inputs[0])
     smooth = tree.node("GeometryNodeSetShadeSmooth", whole)
     return tree.output(
         tree.node("GeometryNodeSetMaterial", smooth, named={"Material": radius_material()})
     )
-
-
-def _spheres(
-    tree: Tree, radius: bpy.types.NodeSocket, level: bpy.types.NodeSocket
-) -> bpy.types.NodeSocket:
-    points = tree.node("GeometryNodeMeshToPoints", named={"Mesh": tree.geometry})
-    sphere = tree.node("GeometryNodeMeshIcoSphere", 1.0, level)
-    spheres = tree.node(
-        "GeometryNodeInstanceOnPoints",
-        named={"Points": points, "Instance": sphere, "Scale": radius},
-    )
-    return tree.node("GeometryNodeRealizeInstances", spheres)
-
-
-def _tubes(
-    tree: Tree, radius: bpy.types.NodeSocket, sides: bpy.types.NodeSocket
-) -> bpy.types.NodeSocket:
-    curves = tree.node("GeometryNodeMeshToCurve", tree.geometry)
-    curves = tree.node("GeometryNodeSetCurveRadius", named={"Curve": curves, "Radius": radius})
-    circle = tree.node(
-        "GeometryNodeCurvePrimitiveCircle", named={"Resolution": sides, "Radius": 1.0}
-    )
-    tubes = tree.node("GeometryNodeCurveToMesh", named={"Curve": curves, "Profile Curve": circle})
-    scale = tubes.node.inputs.get("Scale")  # where it exists, radii of curves have no effect
-    if scale is not None:
-        tree.group.links.new(radius, scale)
-    return tubes

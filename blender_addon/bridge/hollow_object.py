@@ -29,12 +29,11 @@ _DRAIN = "Medial Axis Drain"  # the modifier
 _AROUND = 48  # corners of the cylinder
 
 HOLLOW = Product(" Hollow", (stored.HOLLOW_WALL,))
-is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
 
 
 def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
     """The solid that was hollowed, as long as it is there; any other object is returned as it is."""
-    source = source_of(thing) if is_hollow(thing) else None
+    source = source_of(thing) if HOLLOW.has(thing) else None
     return thing if source is None or is_gone(source) else source
 
 
@@ -51,22 +50,7 @@ def hole_of(found: Hollow, frame: Floats, width: float, at_cursor: bool) -> Drai
 def write_hollow(
     source: bpy.types.Object, found: Hollow, frame: Floats, hole: DrainHole | None
 ) -> bpy.types.Object:
-    """Make the hollow solid of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Hollow
-    frame : (4, 4) float64
-        Where it lies in the world; rotation and translation only.
-    hole : DrainHole or None
-
-    Raises
-    ------
-    InvalidInputError
-        It cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the hollow solid of a source, or update the existing one."""
     thing, _ = HOLLOW.write_mesh(source, partial(new_mesh, found))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)

@@ -30,7 +30,7 @@ _TABLE = (
 
 THICK_PARTS = Product(" Thick Parts", (stored.THICK_FACES,))
 MID_SURFACE = Product(" Mid-Surface", (stored.MID_SHEETS,), material=thickness_material)
-is_mid_surface, mid_surface_of, is_thick = MID_SURFACE.has, MID_SURFACE.of, THICK_PARTS.has
+is_mid_surface, is_thick = MID_SURFACE.has, THICK_PARTS.has
 
 
 def check_mid_surface_writable(source: bpy.types.Object) -> None:
@@ -42,21 +42,7 @@ def check_mid_surface_writable(source: bpy.types.Object) -> None:
 def write_mid_surface(
     source: bpy.types.Object, found: MidSurface, frame: Floats
 ) -> bpy.types.Object:
-    """Make the middle surface of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : MidSurface
-    frame : (4, 4) float64
-        Where the sheets lie in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        It cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the middle surface of a source, or update the existing one."""
     build = partial(new_mesh, found, table=_TABLE)
     span = radius_range(found.of_vertices)
     thing, is_new = MID_SURFACE.write_coloured(source, build, THICKNESS, found.of_vertices, *span)

@@ -46,10 +46,7 @@ def modifier_of(rebuilt: bpy.types.Object) -> bpy.types.NodesModifier | None:
 def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     """The solid of a result: the existing one, or a new one.
 
-    Raises
-    ------
-    InvalidInputError
-        The axis is not of the inside.
+    Raises InvalidInputError where the axis is not of the inside.
     """
     side = settings_of(result).side
     if side is not Side.INNER:
@@ -72,11 +69,7 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
 def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidDifference | None:
     """Measures and remembers how far the solid is from the source of its axis; None when that source is gone.
 
-    Raises
-    ------
-    InvalidInputError
-        One of the two has no faces.
-    NativeModuleError, OutOfMemoryError
+    Raises InvalidInputError where one of the two has no faces, NativeModuleError and OutOfMemoryError.
     """
     result = source_of(rebuilt)
     source = None if is_gone(result) else source_of(result)

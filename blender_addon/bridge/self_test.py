@@ -9,6 +9,7 @@ import numpy as np
 from ..core.axis.known_box import Check, checks_of, compute_box
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
+from .mesh.attributes import RADIUS, read_attribute
 from .mesh.write_mesh import new_axis_mesh
 
 
@@ -24,8 +25,7 @@ def self_test() -> list[Check]:
 def _check_mesh(axis: MedialAxis) -> Check:
     mesh = new_axis_mesh(axis, "Medial Axis Self-Test")
     try:
-        radius = np.empty(len(mesh.vertices), np.float32)
-        mesh.attributes["ma_radius"].data.foreach_get("value", radius)
+        radius = read_attribute(mesh.attributes, RADIUS.name, RADIUS.type, RADIUS.domain)
         facets = len(mesh.polygons)
         same = facets == axis.facets and np.array_equal(radius, axis.radius.astype(np.float32))
         return Check(same, f"Blender has a mesh of {facets:,} faces with these radii")

@@ -21,16 +21,12 @@ from .thickness.thicken_modifier import selected_triangles
 _TABLE = (Attribute("ma_wall", "walls", "POINT", "FLOAT", np.float32),)
 
 SOLID = Product(" Solid", (stored.SOLID_WALL,))
-is_solid, solid_of, check_solid_writable = SOLID.has, SOLID.of, SOLID.check_writable
 
 
 def chosen_triangles(source: bpy.types.Object) -> Flags:
     """Return which triangles of a source belong to selected faces, (m,).
 
-    Raises
-    ------
-    InvalidInputError
-        Its modifiers make other faces than those that can be selected, or it has none.
+    Raises InvalidInputError where its modifiers make other faces than those that can be selected, or it has none.
     """
     if source.type != "MESH" or not keeps_rows(source):
         raise InvalidInputError(
@@ -41,21 +37,7 @@ def chosen_triangles(source: bpy.types.Object) -> Flags:
 
 
 def write_solid(source: bpy.types.Object, found: Solidified, frame: Floats) -> bpy.types.Object:
-    """Make the solid of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Solidified
-    frame : (4, 4) float64
-        Where it lies in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        It cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the solid of a source, or update the existing one."""
     thing, _ = SOLID.write_mesh(source, partial(new_mesh, found, table=_TABLE))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)

@@ -20,21 +20,7 @@ is_surface, surface_of, check_surface_writable = SURFACE.has, SURFACE.of, SURFAC
 def write_surface(
     source: bpy.types.Object, found: Reconstruction, frame: np.ndarray
 ) -> bpy.types.Object:
-    """Make the surface of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Reconstruction
-    frame : (4, 4) float64
-        Where the surface lies in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        The surface cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the surface of a source, or update the existing one."""
     surface, _ = SURFACE.write_mesh(source, partial(new_mesh, found))
     place(surface, frame)
     remember(surface, source, found.points, found.duplicates, found.warnings)

@@ -25,7 +25,7 @@ _MODULES = (
     "thickness.export_thickness", "axis.import_points", "axis.inward_faces", "settings.presets", "base.legend",
     "base.show", "settings.guide", "panels.panels", "axis.parts", "skeleton.skeleton_panel",
     "thickness.thickness_panel", "rebuild", "balls", "panels.settings_panels", "axis.compute_sequence", "reduce",
-    "mid_surface", "axis.convert_to_curve", "axis.simplify_to_gap", "axis.node_groups", "panels.menus",
+    "mid_surface", "axis.convert_to_curve", "panels.form_panel", "axis.node_groups", "panels.menus",
     "base.manual", "base.current_job",
 )
 # fmt: on

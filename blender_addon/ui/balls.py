@@ -36,10 +36,10 @@ class OBJECT_OT_medial_axis_balls(SampledOperator, BallProperties, bpy.types.Ope
     bl_description = (
         "Make few balls that stand for the selected objects: for collisions, physics, robots"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "balls"
     check_writable = staticmethod(check_balls_writable)
+    write = staticmethod(write_balls)
 
     shown = (*BALL_OPTIONS, "parent")
     parent: prop(LOOKS["parent"])
@@ -50,9 +50,6 @@ class OBJECT_OT_medial_axis_balls(SampledOperator, BallProperties, bpy.types.Ope
     def work(self, shape):
         wanted = settings_from(self, BallSettings)
         return partial(cover_by_balls, shape, settings_from(self), wanted, limit=memory_limit())
-
-    def write(self, thing, found, frame):
-        return write_balls(thing, found, frame)
 
     def summary(self, found):
         balls = found.balls

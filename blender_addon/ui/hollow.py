@@ -5,7 +5,7 @@ from functools import partial
 
 import bpy
 
-from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, write_hollow
+from ..bridge.hollow_object import HOLLOW, hole_of, unhollowed, write_hollow
 from ..core.hollow.hollow import hollow
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
@@ -13,26 +13,14 @@ from .axis.compute_operator import Alone, ComputeOperator
 from .settings.properties import prop, settings_from, with_options
 
 
-@with_options(HOLLOW_OPTIONS)
-class HollowProperties:
-    """The wall."""
-
-
-@with_options(DRAIN_OPTIONS)
-class DrainProperties:
-    """The hole in the wall."""
-
-
-class OBJECT_OT_medial_axis_hollow(
-    ComputeOperator, Alone, HollowProperties, DrainProperties, bpy.types.Operator
-):
+@with_options(HOLLOW_OPTIONS | DRAIN_OPTIONS)
+class OBJECT_OT_medial_axis_hollow(ComputeOperator, Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_hollow"
     bl_label = "Hollow"
     bl_description = "Make a hollow copy of a solid with a wall of one thickness and a drain hole whose cylinder moves"
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "hollow solid"
-    check_writable = staticmethod(check_hollow_writable)
+    check_writable = staticmethod(HOLLOW.check_writable)
 
     parent: prop(LOOKS["parent"])
 

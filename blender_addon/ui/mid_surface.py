@@ -19,32 +19,23 @@ from .settings.properties import prop, settings_from, with_options
 
 
 @with_options(MID_SURFACE_OPTIONS)
-class MidSurfaceProperties:
-    """Which parts become sheets, and how fine these are."""
-
-
-class OBJECT_OT_medial_axis_unsolidify(
-    SampledOperator, Alone, MidSurfaceProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_unsolidify(SampledOperator, Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_unsolidify"
     bl_label = "Unsolidify"
     bl_description = (
         "Make one sheet of each wall of a thin solid, with its thickness and a Solidify modifier that gives the solid "
         "back"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "middle surface"
     parent: prop(LOOKS["parent"])
     shown = (*MID_SURFACE_OPTIONS, "parent")
     check_writable = staticmethod(check_mid_surface_writable)
+    write = staticmethod(write_mid_surface)
 
     def work(self, shape):
         wanted = settings_from(self, MidSurfaceSettings)
         return partial(mid_surface, shape, settings_from(self), wanted, limit=memory_limit())
-
-    def write(self, thing, found, frame):
-        return write_mid_surface(thing, found, frame)
 
     def settle(self, made):
         for sheets in made:

@@ -53,7 +53,6 @@ class OBJECT_OT_medial_axis_reduce(ComputeOperator, Alone, bpy.types.Operator):
         "Make a small medial mesh of the medial axis: faces and edges between few balls, "
         "with the same topology and nearly the same solid"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "small medial mesh"
     parent = False  # it lies where its axis lies

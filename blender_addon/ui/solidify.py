@@ -7,46 +7,34 @@ from functools import partial
 import bpy
 
 from ..bridge.objects.read_object import read_object
-from ..bridge.solidify_object import check_solid_writable, chosen_triangles, write_solid
+from ..bridge.solidify_object import SOLID, chosen_triangles, write_solid
 from ..core.arrays import Flags
 from ..core.samples.density import share_text
 from ..core.settings import LOOKS, SOLIDIFY_OPTIONS, SolidifySettings
-from ..core.shape.shape import Shape
 from ..core.solidify.solidify import solidify
-from .axis.compute_operator import Alone, ComputeOperator
+from .axis.compute_operator import Alone, ComputeOperator, Read
 from .settings.properties import prop, settings_from, with_options
 
 
 @dataclass(frozen=True)
-class _Sheet:
+class _Sheet(Read):
     """A shape, and which of its triangles are selected."""
 
-    shape: Shape
     selected: Flags | None
-
-    @property
-    def frame(self):
-        return self.shape.frame
 
 
 @with_options(SOLIDIFY_OPTIONS)
-class SolidifyProperties:
-    """The wall that a sheet becomes."""
-
-
-class OBJECT_OT_medial_axis_solidify(
-    ComputeOperator, Alone, SolidifyProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_solidify(ComputeOperator, Alone, bpy.types.Operator):
     bl_idname = "object.medial_axis_solidify"
     bl_label = "Solidify"
     bl_description = (
         "Make a closed solid of a sheet, with an even wall that does not cross itself and is thinner where there is no "
         "room for it"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "solid"
-    check_writable = staticmethod(check_solid_writable)
+    check_writable = staticmethod(SOLID.check_writable)
+    write = staticmethod(write_solid)
 
     parent: prop(LOOKS["parent"])
 
@@ -62,9 +50,6 @@ class OBJECT_OT_medial_axis_solidify(
     def work(self, sheet):
         wanted = settings_from(self, SolidifySettings)
         return partial(solidify, sheet.shape, wanted, sheet.selected)
-
-    def write(self, thing, found, frame):
-        return write_solid(thing, found, frame)
 
     def summary(self, found):
         if found.without_room == 0.0:

@@ -3,8 +3,8 @@
 
 import bpy
 import pytest
-from scene import addon
-from support.tiers import (  # noqa: F401 - found by the path that scene adds; pytest finds the hooks here
+from installed import addon
+from support.tiers import (  # noqa: F401 - found by the path that installed adds; pytest finds the hooks here
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,

@@ -8,7 +8,9 @@ import itertools
 
 import bpy
 import numpy as np
-from scene import addon, link, positions, select
+from installed import addon
+from measure import positions
+from scene import added, link, select
 
 NAMES = (
     "",
@@ -71,8 +73,7 @@ def grown(*names, **options):
     """A function that returns the points and faces of a primitive, which an operator of Blender adds."""
 
     def base(random):
-        getattr(bpy.ops.mesh, f"primitive_{chosen(random, names)}_add")(**options)
-        mesh = bpy.context.object.data
+        mesh = added(chosen(random, names), **options).data
         faces = [tuple(polygon.vertices) for polygon in mesh.polygons]
         points = positions(mesh)
         bpy.data.objects.remove(bpy.context.object)
@@ -229,18 +230,8 @@ def edges_of(random, points):
 
 def other_than_mesh(random):
     """A curve, a text, a surface or a metaball."""
-    add = chosen(
-        random,
-        (
-            bpy.ops.curve.primitive_bezier_circle_add,
-            bpy.ops.object.text_add,
-            bpy.ops.surface.primitive_nurbs_surface_torus_add,
-            bpy.ops.object.metaball_add,
-            bpy.ops.object.armature_add,
-        ),
-    )
-    add()
-    thing = bpy.context.object
+    kinds = ("curve.bezier_circle", "object.text", "surface.nurbs_surface_torus")
+    thing = added(chosen(random, (*kinds, "object.metaball", "object.armature")))
     if hasattr(thing.data, "bevel_depth"):
         thing.data.bevel_depth = chosen(random, (0.0, 0.1, -3.0))
         thing.data.extrude = chosen(random, (0.0, 0.3))

@@ -1,34 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes and measuring sticks for the tests inside Blender."""
+"""Scenes for the tests inside Blender: objects, and what is done with them."""
 
-import ctypes
-import importlib
-import os
-import re
-import sys
-from pathlib import Path
+import contextlib
 
 import bpy
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
+from installed import addon
+from mathutils import Matrix
+from measure import contents, medial_objects, positions, result_of
 from support.clouds import on_ellipsoid
-
-MODULE = os.environ["MEDIAL_AXIS_MODULE"]
-
-
-def program():
-    """The Blender that runs this, to be started once more."""
-    if not bpy.app.binary_path:
-        pytest.skip("this is Blender as a module; it has no program")
-    return bpy.app.binary_path
-
-
-def addon(path=""):
-    """A module of the installed add-on, such as addon('core.axis.compute')."""
-    return importlib.import_module(f"{MODULE}.{path}" if path else MODULE)
 
 
 def link(name, vertices, faces=(), edges=()):
@@ -62,10 +43,38 @@ def exclude(thing):
     bpy.context.view_layer.layer_collection.children["Out"].exclude = True
 
 
+def added(kind, **options):
+    """A new object of Blender's: added("cube", size=2), added("curve.bezier_circle"), added("object.text")."""
+    group, _, name = kind.rpartition(".")
+    name = f"{name}_add" if group == "object" else f"primitive_{name}_add"
+    getattr(getattr(bpy.ops, group or "mesh"), name)(**options)
+    return bpy.context.object
+
+
+def ring(**options):
+    """A circle that a bevel makes a tube of 0.2."""
+    thing = added("curve.bezier_circle", **options)
+    thing.data.bevel_depth = 0.2
+    return thing
+
+
+def plate(thickness):
+    """A plate of 2 by 2."""
+    thing = added("cube", size=2)
+    thing.data.transform(Matrix.Diagonal((1.0, 1.0, thickness / 2, 1.0)))
+    return thing
+
+
+def box(*size):
+    """A box about the origin, whose eight vertices lie where these sizes say."""
+    thing = added("cube", size=1.0)
+    thing.data.transform(Matrix.Diagonal((*size, 1.0)))
+    return thing
+
+
 def suzanne(levels=1):
     """A monkey under a Subdivision Surface modifier: 507 points, 2,012 after one level."""
-    bpy.ops.mesh.primitive_monkey_add()
-    thing = bpy.context.object
+    thing = added("monkey")
     if levels:
         thing.modifiers.new("Subdivision", "SUBSURF").levels = levels
     return thing
@@ -73,8 +82,7 @@ def suzanne(levels=1):
 
 def ellipsoid(name="Ellipsoid", axes=(1.0, 0.7, 0.5), segments=3):
     """A closed mesh without symmetry to speak of."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=segments)
-    thing = bpy.context.object
+    thing = added("ico_sphere", subdivisions=segments)
     thing.name = name
     points = positions(thing.data) * axes
     points += np.random.default_rng(7).normal(scale=1e-3, size=points.shape)
@@ -85,16 +93,19 @@ def ellipsoid(name="Ellipsoid", axes=(1.0, 0.7, 0.5), segments=3):
 
 def torus(name="Torus"):
     """A closed mesh with inner and outer axis, and facets near every threshold."""
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=48, minor_segments=24, major_radius=1.0, minor_radius=0.4
-    )
-    thing = bpy.context.object
+    thing = tube_ring(48, 24, 0.4)
     thing.name = name
     points = positions(thing.data)
     points += np.random.default_rng(7).normal(scale=5e-3, size=points.shape)
     thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
     thing.data.update()
     return thing
+
+
+def tube_ring(around, across, radius):
+    """A torus of radius 1, whose tube has this radius, of so many segments."""
+    segments = {"major_segments": around, "minor_segments": across}
+    return added("torus", major_radius=1.0, minor_radius=radius, **segments)
 
 
 def scan(name="Scan", points=None, normals=None):
@@ -112,57 +123,49 @@ def opened(name="Open", faces=40):
     return link(name, positions(source.data), kept)
 
 
-def positions(mesh):
-    """(n, 3) the vertices of a mesh."""
-    values = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", values)
-    return values.reshape(-1, 3).astype(np.float64)
+def cells(*places):
+    """A mesh of unit cubes that are glued together, by their lowest corners."""
+    corners, faces = {}, []
+    for place in places:
+        for axis in range(3):
+            for side in (0, 1):
+                beside = np.array(place)
+                beside[axis] += 2 * side - 1
+                if tuple(beside.tolist()) in places:
+                    continue
+                u, v = np.roll(np.eye(3, dtype=int), 1 - axis, axis=0)[[2, 0]]
+                low = np.array(place) + side * np.eye(3, dtype=int)[axis]
+                ring = [low, low + u, low + u + v, low + v][:: 2 * side - 1]
+                faces.append([corners.setdefault(tuple(c.tolist()), len(corners)) for c in ring])
+    return link("Cells", list(corners), faces)
 
 
-def world_positions(thing):
-    """(n, 3) the vertices of an object in the world."""
-    bpy.context.view_layer.update()
-    matrix = np.array(thing.matrix_world)
-    return positions(thing.data) @ matrix[:3, :3].T + matrix[:3, 3]
+def reopened(path):
+    """Save the file, and open it again."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.open_mainfile(filepath=str(path))
 
 
-def radii_are_sound(mesh):
-    """Radii are positive, and 0 only on the rims of crisp sheets that end on sharp edges and corners."""
-    radius = attribute(mesh, "ma_radius")
-    ends = radius == 0
-    return (radius >= 0).all() and (
-        not ends.any() or (attribute(mesh, "ma_place")[ends] >= 3).all()
-    )
+def export(path, **options):
+    """Write the active object's axis or balls to a file."""
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path), **options) == {"FINISHED"}
 
 
-def sound(result):
-    """The result is a valid mesh of finite numbers."""
-    mesh = result.data
-    assert len(mesh.vertices) > 0 and mesh.validate() is False
-    assert np.isfinite(positions(mesh)).all()
-    for name in ("ma_radius", "ma_theta", "ma_rho"):
-        assert np.isfinite(attribute(mesh, name)).all()
-    assert radii_are_sound(mesh)
+def refuse_export(match, path, **options):
+    """The same raises one sentence, and leaves the folder as it was."""
+    before = sorted(path.parent.iterdir())
+    refuse(match, "export_scene.medial_axis", filepath=str(path), **options)
+    assert sorted(path.parent.iterdir()) == before
 
 
-def attribute(mesh, name):
-    """The values of an attribute, (n,) or (n, 2)."""
-    found = mesh.attributes[name]
-    width = 2 if found.data_type == "INT32_2D" else 1
-    dtype = np.float32 if found.data_type == "FLOAT" else np.int32
-    values = np.empty(width * len(found.data), dtype)
-    found.data.foreach_get("value", values)
-    return values.reshape(-1, 2) if width == 2 else values
-
-
-def result_of(source):
-    """The result object of a source, or None."""
-    return addon("bridge.axis.axis_object").result_of(source)
-
-
-def analyses():
-    """How many analyses were computed since Blender started."""
-    return addon("core.machine.cache").CACHE.analyses
+@contextlib.contextmanager
+def in_edit_mode():
+    """The active object is in edit mode meanwhile."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        yield
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def compute(*sources, **settings):
@@ -184,61 +187,18 @@ def compute_or_not(**settings):
 
 
 def refuse(match, operator="medial_axis", **settings):
-    """The operator raises one sentence and leaves the file as it was."""
+    """The operator raises one sentence and leaves the file as it was.
+
+    "medial_axis" is called as by `compute`; others by their names, such as "wm.medial_axis_self_test", as they are.
+    """
     before = contents()
     with pytest.raises(RuntimeError, match=match) as caught:
         if operator == "medial_axis":
             compute_or_not(**settings)
         else:
-            getattr(bpy.ops.object, operator)(**settings)
-    assert "Traceback" not in str(caught.value)
+            group, _, name = operator.rpartition(".")
+            getattr(getattr(bpy.ops, group or "object"), name)(**settings)
+    said = str(caught.value)
+    assert "Traceback" not in said and len(said.strip().splitlines()) == 1, said
     assert contents() == before
-    return str(caught.value)
-
-
-def contents():
-    """The names of the objects, meshes and materials in the file."""
-    return [
-        sorted(thing.name for thing in kind)
-        for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.materials)
-    ]
-
-
-def direct(points, triangles=None, sphere=False, **settings):
-    """The compiled module's answer without the add-on: a MedialMesh."""
-    module = addon("core.machine.native").load()
-    return module.MedialAnalysis(points, triangles, bounding_sphere=sphere).extract(**settings)
-
-
-def triangles_of(mesh):
-    """(m, 3) the loop triangles of a mesh."""
-    mesh.calc_loop_triangles()
-    values = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", values)
-    return values.reshape(-1, 3)
-
-
-def in_wine():
-    """Whether this is no real Windows."""
-    return sys.platform == "win32" and hasattr(ctypes.windll.ntdll, "wine_get_version")
-
-
-renders = pytest.mark.skipif(in_wine(), reason="Blender does not render in Wine")
-
-
-def flush():
-    """Flushes the buffer of Blender's output."""
-    ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)
-
-
-def reports(capfd):
-    """The reports of operators since the last call: [('Info', text), ...]."""
-    flush()
-    return re.findall(r"^(Info|Warning|Error): (.*)$", capfd.readouterr().out, re.MULTILINE)
-
-
-def medial_objects():
-    """All result objects in the file."""
-    return [
-        thing for thing in bpy.data.objects if addon("bridge.axis.axis_object").is_result(thing)
-    ]
+    return said

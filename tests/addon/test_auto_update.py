@@ -6,7 +6,9 @@ import dataclasses
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, positions, result_of
+from installed import addon
+from measure import positions, result_of
+from scene import compute, ellipsoid
 
 
 @pytest.fixture(autouse=True)
@@ -52,10 +54,9 @@ def computed(read, settings, what="shown"):
 
 
 def test_it_is_off_at_first_and_watches_nothing_in_the_background():
-    source = ellipsoid()
-    compute()
-    assert not result_of(source).medial_axis_auto_update
-    result_of(source).medial_axis_auto_update = True
+    result = compute(ellipsoid())
+    assert not result.medial_axis_auto_update
+    result.medial_axis_auto_update = True
     assert auto._after_update not in bpy.app.handlers.depsgraph_update_post
     assert not bpy.app.timers.is_registered(auto._begin)
 

@@ -4,22 +4,16 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, compute, positions, result_of, select
+from installed import addon
+from measure import attribute, positions, result_of
+from scene import added, box, compute, export, select
 
 EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 
 
-def box():
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    thing = bpy.context.object
-    thing.scale = (3.0, 2.0, 1.0)
-    bpy.context.view_layer.update()
-    return thing
-
-
 @pytest.fixture
 def result():
-    source = box()
+    source = box(3.0, 2.0, 1.0)
     before = sorted(attribute.name for attribute in source.data.attributes)
     compute(**EVEN)
     assert sorted(attribute.name for attribute in source.data.attributes) == before
@@ -27,9 +21,7 @@ def result():
 
 
 def sharp_edges(mesh):
-    values = np.empty(len(mesh.edges), bool)
-    mesh.edges.foreach_get("use_edge_sharp", values)
-    return values
+    return np.array([edge.use_edge_sharp for edge in mesh.edges])
 
 
 def test_attributes_name_the_parts_of_a_box(result):
@@ -52,8 +44,7 @@ def test_sheets_are_smooth_and_seams_sharp(result):
 
 
 def test_a_sheet_without_seams_needs_no_normals_of_corners():
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
-    source = bpy.context.object
+    source = added("ico_sphere", subdivisions=4)
     source.scale = (3.0, 2.0, 1.0)
     bpy.context.view_layer.update()
     compute(sampling="VERTICES", form="CLEAN", crisp=False)
@@ -77,9 +68,7 @@ def test_colours_by_part_are_live(result):
     panel.by_part = True
     colour = result.data.color_attributes["ma_color"]
     assert colour.domain == "CORNER" and result.data.color_attributes.active_color == colour
-    values = np.empty(4 * len(colour.data), np.float32)
-    colour.data.foreach_get("color", values)
-    assert len(np.unique(values.reshape(-1, 4), axis=0)) == 13
+    assert len(np.unique(attribute(result.data, "ma_color"), axis=0)) == 13
     assert addon("bridge.mesh.colours").colour_range(result) is None
     panel.by_part = False
     assert result.data.color_attributes["ma_color"].domain == "POINT"
@@ -127,7 +116,7 @@ def test_other_forms_have_no_parts(result):
 
 def test_a_table_is_exported(result, tmp_path):
     select(result)
-    bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "parts.csv"))
+    export(tmp_path / "parts.csv")
     rows = (tmp_path / "parts.csv").read_text().splitlines()
     assert rows[0].startswith("part,patch_a,patch_b,area") and len(rows) == 14
 

@@ -4,19 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    compute,
-    compute_or_not,
-    ellipsoid,
-    link,
-    medial_objects,
-    positions,
-    refuse,
-    reports,
-    result_of,
-    select,
-    sound,
-)
+from measure import medial_objects, positions, reports, result_of, sound
+from scene import added, compute, compute_or_not, ellipsoid, link, refuse, ring, select, suzanne
 
 
 def test_nothing_selected():
@@ -47,17 +36,15 @@ def test_transform_that_is_not_finite():
 
 def test_duplicates_are_merged_and_counted():
     points = np.random.default_rng(4).normal(size=(60, 3)).astype(np.float32)
-    source = link("Twice", np.concatenate([points, points[:25]]))
-    compute(side="BOTH")
-    assert result_of(source)["ma_duplicates"] == 25 and result_of(source)["ma_points"] == 85
-    sound(result_of(source))
+    result = compute(link("Twice", np.concatenate([points, points[:25]])), side="BOTH")
+    assert result["ma_duplicates"] == 25 and result["ma_points"] == 85
+    sound(result)
 
 
 def test_cloud_far_from_the_origin():
     points = np.random.default_rng(8).normal(size=(80, 3)).astype(np.float32)
-    source = link("Far", points + np.float32(1e6))
-    compute(side="BOTH")
-    sound(result_of(source))
+    result = compute(link("Far", points + np.float32(1e6)), side="BOTH")
+    sound(result)
     moved = link("Moved", points)
     moved.location = (1e6, 1e6, 1e6)
     compute(side="BOTH")
@@ -99,3 +86,36 @@ def test_a_source_hidden_by_h_is_read_as_it_was_seen(chosen):
     select()
     bpy.context.view_layer.objects.active = source
     refuse("nothing is selected")
+
+
+def noise():
+    return link("Noise", np.random.default_rng(2).normal(size=(300, 3)))
+
+
+REPORT = {"target": "SOURCE", "sampling": "SURFACE", "samples": 1_500}
+# The object that there is, the operator with its options, and a part of the sentence with which it refuses.
+REFUSED = {
+    "flat text": ("object.text", "object.medial_axis", {}, "'Text': .*one plane; give them thickness"),
+    "curve": ("curve.bezier_circle", "object.medial_axis", {},
+              "'B.zierCircle': Expected faces, found only lines; give the object a surface"),
+    "parts of a curve": (ring, "medial_axis_skeleton", {"parts": True}, "turn Parts off"),
+    "hollow plane": ("plane", "medial_axis_hollow", {"wall": 0.1}, "one plane; give them"),
+    "sheets of a block": ("cube", "medial_axis_unsolidify", {"samples": 4000}, "found none"),
+    "noise": (noise, "tight_cocone_surface", {}, "'Noise': .*found nothing enclosed"),
+    "report with a modifier": (suzanne, "medial_axis_sampling_report", REPORT,
+                               "as many vertices with modifiers as without"),
+    "report of a metaball": ("object.metaball", "medial_axis_sampling_report", REPORT, "found an object of type Meta"),
+    "thicken without a limit": ("cube", "medial_axis_thicken", {"limit": 0.0}, "Expected a limit above 0"),
+    "thicken a modifier": (suzanne, "medial_axis_thicken", {"limit": 0.1}, "Expected modifiers that keep the vertices"),
+    "thicken an open mesh": ("plane", "medial_axis_thicken", {"limit": 0.1}, "Expected"),
+    "thicken a curve": ("curve.bezier_circle", "medial_axis_thicken", {"limit": 0.1}, "Expected a mesh of this file"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_made_is_told_and_nothing_is_left(case):
+    make, operator, options, words = REFUSED[case]
+    source = added(make) if isinstance(make, str) else make()
+    before = len(source.modifiers), len(bpy.data.node_groups)
+    refuse(words, operator, **options)
+    assert (len(source.modifiers), len(bpy.data.node_groups)) == before

@@ -12,7 +12,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import MODULE, addon, ellipsoid, link, program, scan, select, torus
+from installed import MODULE, addon, program, succeeded
+from scene import ellipsoid, link, scan, select, torus
 
 FOLDER = Path(addon().__file__).resolve().parent
 
@@ -207,17 +208,12 @@ def test_the_same_bytes_in_every_way_in(here, run):
     assert done.returncode == 0 and len(reports_of(done.stdout)) == 1, done.stderr
     assert in_blender("loaded.npz", file=["scan.blend"]).returncode == 0
     if hasattr(bpy.utils, "register_cli_command"):
-        command = [program(), "--command", "medial_axis", "scan.npy", "command.npz"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        assert done.returncode == 0, done.stdout + done.stderr
-        command = [program(), "scan.blend", "--command", "medial_axis", "after.npz"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        assert done.returncode == 0, done.stdout + done.stderr
+        succeeded([program(), "--command", "medial_axis", "scan.npy", "command.npz"])
+        succeeded([program(), "scan.blend", "--command", "medial_axis", "after.npz"])
         assert (here / "after.npz").read_bytes() == (here / "command.npz").read_bytes()
     else:
         (here / "command.npz").write_bytes((here / "open.npz").read_bytes())
-    done = subprocess.run([*plain_python(), "scan.npy", "plain.npz"], capture_output=True)
-    assert done.returncode == 0, done.stderr
+    succeeded([*plain_python(), "scan.npy", "plain.npz"])
     names = ["open", "inside", "other", "loaded", "command", "plain"]
     assert len({(here / f"{name}.npz").read_bytes() for name in names}) == 1
 
@@ -241,7 +237,7 @@ def test_two_blenders_in_one_folder(here):
         for words in ([], ["--object", "Ring", "--object", "Body"])
     ]
     assert [run.wait() for run in runs] == [0, 0]
-    assert subprocess.run([*command, "alone/", "--frames=1-5"], capture_output=True).returncode == 0
+    succeeded([*command, "alone/", "--frames=1-5"])
     both, alone = (
         {path.name: path.read_bytes() for path in (here / folder).glob("*.ma")}
         for folder in ("both", "alone")
@@ -276,10 +272,7 @@ def test_documented_commands(here):
         words = shlex.split(line.replace("FOLDER", str(FOLDER)))
         if "--command" in words and not hasattr(bpy.utils, "register_cli_command"):
             words = ["--background", "--python", str(FOLDER / "__main__.py"), "--"]
-            words += shlex.split(line)[3:]
-            done = subprocess.run([program(), *words], capture_output=True, text=True)
-        else:
-            done = subprocess.run([program(), *words[1:]], capture_output=True, text=True)
-        assert done.returncode == 0, f"{line}: {done.stdout}{done.stderr}"
+            words = ["blender", *words, *shlex.split(line)[3:]]
+        succeeded([program(), *words[1:]])
     assert len(list((here / "axes").glob("Body_*.npz"))) == 5
     assert len(list((here / "axes" / "walk").glob("*.npz"))) == 6

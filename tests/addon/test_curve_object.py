@@ -4,19 +4,10 @@
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Matrix
-from scene import (
-    addon,
-    attribute,
-    compute,
-    ellipsoid,
-    exclude,
-    link,
-    positions,
-    result_of,
-    select,
-    torus,
-)
+from measure import attribute, evaluated, loose_edges, positions, result_of
+from scene import cells, compute, ellipsoid, exclude, link, refuse, select, torus
 
 CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
 
@@ -45,23 +36,6 @@ def test_there_is_no_curve_of_sheets_alone():
     assert not bpy.ops.object.medial_axis_to_curve.poll()
 
 
-def cells(*places):
-    """A mesh of unit cubes that are glued together."""
-    corners, faces = {}, []
-    for place in places:
-        for axis in range(3):
-            for side in (0, 1):
-                beside = np.array(place)
-                beside[axis] += 2 * side - 1
-                if tuple(beside.tolist()) in places:
-                    continue
-                u, v = np.roll(np.eye(3, dtype=int), 1 - axis, axis=0)[[2, 0]]
-                low = np.array(place) + side * np.eye(3, dtype=int)[axis]
-                ring = [low, low + u, low + u + v, low + v][:: 2 * side - 1]
-                faces.append([corners.setdefault(tuple(c.tolist()), len(corners)) for c in ring])
-    return link("Cells", list(corners), faces)
-
-
 def splines_of(curve):
     return [np.array([point.co[:3] for point in one.points]) for one in curve.data.splines]
 
@@ -70,14 +44,8 @@ def length_of(curve):
     return sum(np.linalg.norm(np.diff(one, axis=0), axis=1).sum() for one in splines_of(curve))
 
 
-def wires_of(mesh):
-    """(w, 2) the vertices of the edges without a face."""
-    of_faces = {key for face in mesh.polygons for key in face.edge_keys}
-    return np.array([edge.key for edge in mesh.edges if edge.key not in of_faces])
-
-
 def length_of_wires(mesh):
-    ends = positions(mesh)[wires_of(mesh)]
+    ends = positions(mesh)[loose_edges(mesh)]
     return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
 
 
@@ -100,7 +68,7 @@ def test_vertices_of_sheets_are_no_points_of_the_curve():
     bar, other = [(x, 1, 1) for x in range(3, 8)], [(x + 8, y, z) for x, y, z in block]
     cells(*block, *bar, *other)
     axis = compute(form="CLEAN", sampling="SURFACE", samples=3_000, simplify=2.0)
-    wires = wires_of(axis.data)
+    wires = loose_edges(axis.data)
     assert len(axis.data.polygons) > 100 and len(wires) > 20, "sheets and wires"
     assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
     curve = bpy.context.object
@@ -136,17 +104,10 @@ def test_what_is_hidden_is_converted_too(which, hide):
     assert axis.users_collection and not hidden.visible_get()
 
 
-def vectors(mesh, name):
-    values = np.empty(3 * len(mesh.attributes[name].data), np.float32)
-    mesh.attributes[name].data.foreach_get("vector", values)
-    return values.reshape(-1, 3)
-
-
 def test_the_normals_of_sheets_do_not_say_what_is_inside():
-    source = ellipsoid()
-    compute(form="CLEAN", sampling="SURFACE", samples=1_500)
+    result = compute(ellipsoid(), form="CLEAN", sampling="SURFACE", samples=1_500)
     read_normals = addon("bridge.mesh.attributes").read_normals
-    assert read_normals(result_of(source).data.attributes) is None
+    assert read_normals(result.data.attributes) is None
 
 
 def test_huge_axes_have_normals():
@@ -154,7 +115,7 @@ def test_huge_axes_have_normals():
     source.data.transform(Matrix.Scale(1e37, 4))
     compute(form="CLEAN")
     mesh = result_of(source).data
-    length = np.linalg.norm(vectors(mesh, "ma_normal"), axis=1)
+    length = np.linalg.norm(attribute(mesh, "ma_normal"), axis=1)
     assert np.isclose(length, 1.0, atol=1e-5).mean() > 0.9
     assert mesh.validate() is False
 
@@ -193,8 +154,7 @@ def test_the_group_of_balls_shows_thousands():
     select(thing)
     groups = addon("bridge.nodes.groups")
     modifier = groups.add_few_balls(thing)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    shown = len(thing.evaluated_get(depsgraph).data.vertices) / 42
+    shown = len(evaluated(thing).vertices) / 42
     assert 1_000 < shown < 8_000
     assert addon("bridge.nodes.inputs").input_of(modifier, "Merge") > 0
     few = link("Few", np.random.default_rng(2).random((100, 3)))
@@ -205,5 +165,4 @@ def test_the_curve_is_refused_where_an_artist_took_the_edges_away():
     torus()
     axis = compute(**CURVE)
     axis.data.clear_geometry()
-    with pytest.raises(RuntimeError, match="compute the medial axis again|choose Form Curve"):
-        bpy.ops.object.medial_axis_to_curve()
+    refuse("compute the medial axis again|choose Form Curve", "medial_axis_to_curve")

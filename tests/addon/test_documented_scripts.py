@@ -2,12 +2,12 @@
 """The scripts of the README and the user guide run as these pages say, and print what they promise."""
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from scene import MODULE, compute, program, torus
+from installed import MODULE, program, succeeded
+from scene import compute, torus
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "user_guide.md")
@@ -40,12 +40,11 @@ def test_script(tmp_path, word):
     path = tmp_path / "script.py"
     path.write_text(script.replace('"medial_axis"', repr(MODULE)), encoding="utf-8")
     command = [program(), "--background", "--python-exit-code", "1", "--python", str(path)]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
-    assert done.returncode == 0, done.stdout + done.stderr
+    out = succeeded(command, cwd=tmp_path)
     printed, count = SCRIPTS[word]
     if printed:
-        found = re.search(printed, done.stdout)
-        assert found, done.stdout
+        found = re.search(printed, out)
+        assert found, out
         number = int(found[1])
         assert number == pytest.approx(count, rel=0.05) if count else number > 0, number
     if word.endswith(".ma"):

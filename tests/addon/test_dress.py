@@ -4,7 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, positions, renders, result_of, select, torus
+from installed import addon, renders
+from measure import evaluated, positions, result_of
+from scene import added, compute, ellipsoid, select, torus
 
 EVEN = {"form": "CLEAN", "sampling": "SURFACE", "samples": 1_500}
 
@@ -38,6 +40,13 @@ def assert_coloured(pixels):
     """The pixels are no grey: the largest channel is far above the smallest."""
     assert len(pixels) > 10
     assert np.median(np.ptp(pixels, axis=1)) > 0.25, pixels.mean(axis=0)
+
+
+@renders
+def test_the_whole_ramp_is_rendered_from_thin_to_thick(tmp_path):
+    """One colour would mean that the radius does not reach the shader."""
+    pixels = rendered(compute(ellipsoid(axes=(1.0, 0.7, 0.3))), tmp_path)
+    assert len(pixels) > 20 and np.ptp(pixels[:, 0] - pixels[:, 2]) > 0.2
 
 
 def rebuilt(source):
@@ -78,8 +87,7 @@ def test_colours_are_rendered(make, tmp_path):
 
 @renders
 def test_the_copy_with_the_thickness_renders_its_colours(tmp_path):
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    source = bpy.context.object
+    source = added("cube", size=2)
     made = thickness(source)
     assert made != source
     assert_coloured(rendered(made, tmp_path))
@@ -87,8 +95,7 @@ def test_the_copy_with_the_thickness_renders_its_colours(tmp_path):
 
 @renders
 def test_parts_as_objects_render_the_colours_of_their_axis(tmp_path):
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    source = bpy.context.object
+    source = added("cube", size=2)
     source.scale.z = 0.2
     compute(**EVEN)
     select(result_of(source))
@@ -143,7 +150,7 @@ def test_the_material_of_a_rebuilt_solid_is_an_input():
     inputs = addon("bridge.nodes.inputs")
 
     def materials():  # of the faces; Blender 5.2 puts an empty slot before theirs
-        seen = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+        seen = evaluated(made)
         return [seen.materials[index].name for index in {f.material_index for f in seen.polygons}]
 
     assert materials() == ["Medial Axis Radius"]

@@ -4,7 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, link, medial_objects, select
+from installed import addon
+from measure import medial_objects, positions
+from scene import compute, link, select
 
 EACH = {"form": "CLEAN", "sampling": "SURFACE", "samples": 800, "each_part": True}
 
@@ -54,13 +56,10 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
     select(first[-1])
     compute(**EACH)
     assert axes(source) == first and len(first) == 4
-    mesh = bpy.data.meshes.new("One")
-    mesh.from_pydata(
-        [tuple(v.co) for v in source.data.vertices[:8]],
-        [],
-        [tuple(p.vertices) for p in source.data.polygons[:6]],
-    )
-    source.data = mesh
+    first = [tuple(polygon.vertices) for polygon in source.data.polygons[:6]]
+    one = link("One", positions(source.data)[:8], first)
+    source.data = one.data
+    bpy.data.objects.remove(one)
     compute(source, **EACH)
     assert [thing.name for thing in axes(source)] == ["Boxes Medial Axis", "Boxes Medial Axis 1"]
 

@@ -5,11 +5,10 @@ import json
 import os
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
-from scene import MODULE, addon, program
+from installed import MODULE, addon, program, succeeded
 from test_cli import in_blender, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"
@@ -24,17 +23,12 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def run(*words):
-    """A worker's Blender: with this profile, where the add-on is enabled."""
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True)
-
-
 def expected_files(here):
     """The files that one run of the command line writes for frames 1 to 5."""
     done = in_blender("whole/", "--frames=1-5", "--format=npz", "--object=Body", "--rho=9",
                       file=["walk.blend"])  # fmt: skip
     assert done.returncode == 0, done.stderr
-    return {path.name: path.read_bytes() for path in (here / "whole").glob("*.npz")}
+    return made_files(here / "whole")
 
 
 def made_files(folder):
@@ -68,8 +62,7 @@ def test_openjd_commands_do_the_work(here, template):
             re.sub(r"{{\s*([\w.]+)\s*}}", lambda name: values[name[1]], word)
             for word in (action["command"], *action["args"])
         ]
-        done = run(*words)
-        assert done.returncode == 0, done.stdout + done.stderr
+        succeeded(words)  # a worker's Blender has this profile, where the add-on is enabled
     assert made_files(here / "axes") == expected_files(here)
 
 
@@ -92,8 +85,7 @@ def openjd():
 
 
 def test_openjd_template_is_valid():
-    done = run(openjd(), "check", TEMPLATE)
-    assert done.returncode == 0, done.stdout + done.stderr
+    succeeded([openjd(), "check", TEMPLATE])
 
 
 def test_openjd_runs_the_job(here):
@@ -101,6 +93,5 @@ def test_openjd_runs_the_job(here):
     values |= {"ChunkSize": 2, "Object": "Body", "Options": "--rho 9", "Addon": MODULE}
     values["Blender"] = program()
     words = [word for name, value in values.items() for word in ("-p", f"{name}={value}")]
-    done = run(openjd(), "run", TEMPLATE, "--step", "MedialAxis", *words)
-    assert done.returncode == 0, done.stdout + done.stderr
+    succeeded([openjd(), "run", TEMPLATE, "--step", "MedialAxis", *words])
     assert made_files(here / "axes") == expected_files(here)

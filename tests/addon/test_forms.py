@@ -6,24 +6,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    analyses,
-    attribute,
-    compute,
-    link,
-    positions,
-    result_of,
-    select,
-    suzanne,
-)
-
-
-def loose_edges(mesh):
-    """(w, 2) the ends of the edges without a face."""
-    of_faces = {i for polygon in mesh.polygons for i in polygon.edge_keys}
-    ends = [tuple(edge.vertices) for edge in mesh.edges]
-    return np.array([e for e in ends if tuple(sorted(e)) not in of_faces], int).reshape(-1, 2)
+from installed import addon
+from measure import analyses, attribute, loose_edges, positions, result_of
+from scene import added, compute, export, link, select, suzanne
+from test_export_blender import READERS, imported
 
 
 def pair():
@@ -50,8 +36,7 @@ def clean(**settings):
 
 
 def test_clean_is_the_default():
-    bpy.ops.mesh.primitive_cube_add()
-    source = bpy.context.object
+    source = added("cube")
     bpy.ops.object.medial_axis()
     result = result_of(source)
     assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
@@ -72,9 +57,7 @@ def test_attributes_of_faces_and_of_loose_edges():
         values = attribute(mesh, name)
         assert len(values) == len(mesh.polygons) and (values > 0).all()
     assert (attribute(mesh, "ma_erosion") <= attribute(mesh, "ma_sheet")).all()
-    exact = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.attributes["ma_exact"].data.foreach_get("vector", exact)
-    moved = np.linalg.norm(exact.reshape(-1, 3) - positions(mesh), axis=1)
+    moved = np.linalg.norm(attribute(mesh, "ma_exact") - positions(mesh), axis=1)
     assert moved.max() < 0.2 and len(attribute(mesh, "ma_exact_radius")) == len(mesh.vertices)
     assert mesh.validate() is False
 
@@ -148,30 +131,18 @@ def test_detail_of_a_curve_acts_at_once():
 # --- files
 
 
-def export(source, path):
+def export_axis(source, path):
     select(result_of(source))
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
 
 
-def imported(path):
-    before = set(bpy.data.objects)
-    if path.suffix == ".obj":
-        bpy.ops.wm.obj_import(filepath=str(path), forward_axis="Y", up_axis="Z")
-    elif "ply_import" in dir(bpy.ops.wm):
-        bpy.ops.wm.ply_import(filepath=str(path))
-    else:
-        bpy.ops.import_mesh.ply(filepath=str(path))
-    (thing,) = set(bpy.data.objects) - before
-    return thing.data
-
-
-@pytest.mark.parametrize("suffix", [".ply", ".obj"])
-def test_importers_of_blender_read_the_edges(tmp_path, suffix):
+@pytest.mark.parametrize(("suffix", "operator", "options"), READERS)
+def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options):
     source = pair()
     clean(smooth=False)
     mesh, path = result_of(source).data, tmp_path / f"axis{suffix}"
-    export(source, path)
-    again = imported(path)
+    export_axis(source, path)
+    again = imported(operator, path, **options).data
     assert (len(again.polygons), len(again.edges)) == (len(mesh.polygons), len(mesh.edges))
     ours, theirs = positions(mesh), positions(again)
 
@@ -186,7 +157,7 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
     source = pair()
     clean(smooth=False)
     mesh = result_of(source).data
-    export(source, tmp_path / "Pair_0001.npz")
+    export_axis(source, tmp_path / "Pair_0001.npz")
     write_sequence = addon("bridge.skeleton.sequence_objects").write_sequence
     (thing,) = write_sequence("Pair", {1: Path(tmp_path / "Pair_0001.npz")}).objects
     assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0

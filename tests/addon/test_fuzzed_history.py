@@ -8,7 +8,9 @@ import random
 import bpy
 import numpy as np
 import pytest
-from scene import addon, ellipsoid, positions, result_of, select
+from installed import addon
+from measure import attribute, positions, result_of
+from scene import ellipsoid, reopened, select
 from support.fuzz import repeats
 
 NAME = "Source"
@@ -112,9 +114,7 @@ class History:
             bpy.ops.ed.undo()
 
     def save(self):
-        path = bpy.app.tempdir + "history.blend"
-        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False)
-        bpy.ops.wm.open_mainfile(filepath=path)
+        reopened(bpy.app.tempdir + "history.blend")
         self.undone = []
         self.push()
 
@@ -170,13 +170,8 @@ def figures(result):
     arrays = {"co": positions(mesh).tobytes()}
     arrays["edges"] = sorted(tuple(edge.vertices) for edge in mesh.edges)
     arrays["faces"] = [tuple(face.vertices) for face in mesh.polygons]
-    for found in mesh.attributes:
-        if found.name.startswith("ma_") and found.data_type in ("FLOAT", "INT"):
-            values = np.empty(
-                len(found.data), np.float32 if found.data_type == "FLOAT" else np.int32
-            )
-            found.data.foreach_get("value", values)
-            arrays[found.name] = values.tobytes()
+    ours = [name for name in mesh.attributes.keys() if name.startswith("ma_")]  # noqa: SIM118
+    arrays |= {name: attribute(mesh, name).tobytes() for name in ours}
     names = ("ma_topology", "ma_points", "ma_duplicates", "ma_warnings", "ma_verdict")
     return arrays | {name: result.get(name) for name in names}
 

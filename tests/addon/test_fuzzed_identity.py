@@ -10,7 +10,9 @@ import random
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, ellipsoid, positions, select, torus
+from installed import addon
+from measure import attribute, evaluated, positions
+from scene import ellipsoid, select, torus
 from support.fuzz import repeats
 
 TRAVELLER = "which_vertex"
@@ -69,10 +71,8 @@ def add_traveller(source):
 
 def travelled(source):
     """(n,) the vertex of the mesh that each evaluated vertex was, or -1 for those that modifiers made."""
-    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    found = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.attributes[TRAVELLER].data.foreach_get("vector", found)
-    found, numbers = found.reshape(-1, 3), None
+    mesh = evaluated(source)
+    found = attribute(mesh, TRAVELLER)
     numbers = np.round(found[:, 0]).astype(np.int64)
     same = (found[:, 0] == numbers) & (found[:, 1] == found[:, 0] ** 2)
     same &= found[:, 2] == np.sqrt(found[:, 0])

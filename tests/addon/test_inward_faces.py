@@ -4,7 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, positions, result_of, select
+from installed import addon
+from measure import positions, result_of
+from scene import added, compute, ellipsoid, select
 
 ROWS = (3, 10, 11, 40)
 
@@ -64,8 +66,7 @@ def test_a_computation_changes_nothing_and_says_what_it_read(source):
 
 
 def test_quads_and_open_meshes():
-    bpy.ops.mesh.primitive_cube_add()
-    cube = bpy.context.object
+    cube = added("cube")
     cube.data.polygons[2].flip()
     assert inward("SELECT") == {"FINISHED"} and selected(cube.data) == (2,)
     assert addon("bridge.thickness.inward_faces").inward_polygons(cube.data).sum() == 1

@@ -11,8 +11,10 @@ from pathlib import Path
 
 import bpy
 import pytest
+from installed import MODULE, addon
+from measure import medial_objects, result_of
 from run import Blender
-from scene import MODULE, addon, compute, ellipsoid, medial_objects, result_of, select
+from scene import compute, ellipsoid, select
 
 RUNS = 200
 BLOCKS = (
@@ -66,9 +68,7 @@ def test_moved_sliders_leave_no_blocks_and_no_memory():
 
     A mesh of a result is larger than what may stay of each run.
     """
-    source = ellipsoid(segments=5)
-    compute()
-    mesh = result_of(source).data
+    mesh = compute(ellipsoid(segments=5)).data
     size = 12 * len(mesh.vertices) + 4 * len(mesh.loops) + 40 * len(mesh.polygons)
     panel = bpy.context.scene.medial_axis
 

@@ -6,21 +6,10 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Matrix
-from scene import (
-    addon,
-    attribute,
-    compute,
-    ellipsoid,
-    link,
-    medial_objects,
-    positions,
-    result_of,
-    select,
-    suzanne,
-    torus,
-    world_positions,
-)
+from measure import attribute, evaluated, medial_objects, positions, result_of, world_positions
+from scene import added, compute, ellipsoid, export, link, ring, select, suzanne, torus
 from support.messy import crossing_plates
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
@@ -32,9 +21,7 @@ def colours_of(mesh):
     assert (found.domain, found.data_type) == ("POINT", "FLOAT_COLOR")
     assert mesh.color_attributes.active_color == found
     assert mesh.color_attributes[mesh.color_attributes.render_color_index] == found
-    values = np.empty(4 * len(found.data), np.float32)
-    found.data.foreach_get("color", values)
-    return values.reshape(-1, 4)
+    return attribute(mesh, "ma_color")
 
 
 # --- colours
@@ -67,8 +54,7 @@ def test_one_heat_map_is_seen_at_a_time(dense):
 
 def test_a_constant_radius_is_one_figure(monkeypatch):
     figures, drawn = addon("ui.axis.figures"), []
-    bpy.ops.mesh.primitive_uv_sphere_add()
-    source = bpy.context.object
+    source = added("uv_sphere")
     compute(**EVEN)
     monkeypatch.setattr(
         figures, "draw_legend", lambda _layout, *ends, **_turned: drawn.append(ends)
@@ -233,28 +219,13 @@ def test_a_flat_source_carries_nothing():
 # --- hidden with the source
 
 
-def hidden(thing):
-    return thing.hide_viewport, thing.hide_render, thing.hide_get()
-
-
-def hide(thing, viewport=False, render=False, eye=False):
-    """Hide an object in these ways and no other, as Blender's own buttons do."""
-    thing.hide_viewport, thing.hide_render = viewport, render
-    thing.hide_set(eye)
-    bpy.context.view_layer.update()
-
-
 def test_an_axis_stays_visible_beside_its_hidden_source():
-    source, axis = with_axis()
-    hide(source, viewport=True)
-    assert not source.visible_get() and hidden(axis) == (False, False, False)
-
-
-def with_axis(**settings):
     source = ellipsoid()
-    compute(**EVEN, **settings)
+    axis = compute(**EVEN)
+    source.hide_viewport = True
     bpy.context.view_layer.update()
-    return source, result_of(source)
+    assert not source.visible_get()
+    assert not (axis.hide_viewport or axis.hide_render or axis.hide_get())
 
 
 def test_panel_finds_the_axis_of_whatever_is_selected():
@@ -328,10 +299,6 @@ def curve_of_a_torus():
     return source, result_of(source)
 
 
-def evaluated(thing):
-    return thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-
-
 def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
     _, result = curve_of_a_torus()
     assert len(result.data.edges) > 20 and not result.data.polygons
@@ -382,8 +349,7 @@ def test_wires_end_in_balls():
 
 def test_lone_points_are_counted_and_shown_on_demand():
     """A ball beside a block: its axis is a point, which is shown where there is nothing else."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
-    ball = bpy.context.object
+    ball = added("ico_sphere", subdivisions=3)
     compute(form="CLEAN")
     assert len(evaluated(result_of(ball)).polygons) and not result_of(ball)["ma_lone_points_hidden"]
     block = link("Block", *crossing_plates())
@@ -425,7 +391,7 @@ def test_crumbs_are_hidden_and_counted():
 
 def test_exports_are_those_of_the_mesh(tmp_path):
     _, result = curve_of_a_torus()
-    assert bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "axis.ma")) == {"FINISHED"}
+    export(tmp_path / "axis.ma")
     vertices, edges, faces = map(int, (tmp_path / "axis.ma").read_text().split()[:3])
     assert (vertices, faces) == (len(result.data.vertices), 0) and edges == len(result.data.edges)
 
@@ -455,13 +421,9 @@ def test_one_node_group_for_all():
 
 def viewport():
     """(window, area) of a 3D viewport; a Blender without a window has its screens, too."""
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    return window, area
-    pytest.skip("this Blender has no window")
-    return None
+    windows = [window for manager in bpy.data.window_managers for window in manager.windows]
+    found = [(w, area) for w in windows for area in w.screen.areas if area.type == "VIEW_3D"]
+    return found[0] if found else pytest.skip("this Blender has no window")
 
 
 def test_show_colours_goes_and_comes_back():
@@ -513,18 +475,16 @@ def test_guide_is_offered_until_it_was_used_or_dismissed():
 
 
 def add_circle():
-    bpy.ops.curve.primitive_bezier_circle_add(location=(1, 2, -3))
-    bpy.context.object.data.bevel_depth = 0.2
+    return ring(location=(1, 2, -3))
 
 
 def add_bezier():
-    bpy.ops.curve.primitive_bezier_curve_add(location=(0, 5, 0), rotation=(0.3, 0.2, 1.0))
-    bpy.context.object.data.bevel_depth = 0.2
+    thing = added("curve.bezier_curve", location=(0, 5, 0), rotation=(0.3, 0.2, 1.0))
+    thing.data.bevel_depth = 0.2
 
 
 def add_path_that_is_animated():
-    add_circle()
-    curve = bpy.context.object.data
+    curve = add_circle().data
     curve.eval_time = 0.0
     curve.keyframe_insert("eval_time", frame=1)
     curve.eval_time = 100.0
@@ -532,15 +492,12 @@ def add_path_that_is_animated():
 
 
 def add_child():
-    bpy.ops.object.empty_add(location=(3, 1, 0), rotation=(0, 0.5, 0))
-    parent = bpy.context.object
-    add_circle()
-    bpy.context.object.parent = parent
+    parent = added("object.empty", location=(3, 1, 0), rotation=(0, 0.5, 0))
+    add_circle().parent = parent
 
 
 def add_text():
-    bpy.ops.object.text_add(location=(1, 1, 1))
-    bpy.context.object.data.extrude = 0.1
+    added("object.text", location=(1, 1, 1)).data.extrude = 0.1
 
 
 KINDS = {
@@ -596,8 +553,7 @@ def test_results_lie_within_their_source_whatever_its_type(kind, operator):
 
 
 def test_a_moved_curve_takes_its_axis_along():
-    add_circle()
-    source = bpy.context.object
+    source = add_circle()
     bpy.ops.object.medial_axis(samples=1500, sampling="SURFACE")
     (made,) = (t for t in bpy.data.objects if t.get("ma_source") == source)
     before = world_box(made)

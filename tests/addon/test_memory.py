@@ -3,21 +3,11 @@
 
 import bpy
 import pytest
-from scene import (
-    MODULE,
-    addon,
-    analyses,
-    compute,
-    compute_or_not,
-    contents,
-    ellipsoid,
-    on_ellipsoid,
-    refuse,
-    reports,
-    result_of,
-    scan,
-    select,
-)
+from installed import MODULE, addon
+from measure import analyses, reports, result_of
+from scene import compute, compute_or_not, ellipsoid, refuse, scan, select
+from support.clouds import on_ellipsoid
+from test_registration import assert_shows
 
 MEGABYTE = 1 << 20
 
@@ -55,16 +45,7 @@ def test_preferences_are_what_settings_say():
         "cache_size": settings.CACHE_SIZE,
         **addon("core.machine.memory_limit").LIMITS,
     }.items():
-        shown = preferences().bl_rna.properties[name]
-        assert (shown.name, shown.description) == (option.label, option.description)
-        if shown.type == "ENUM":
-            assert shown.default == option.default.name
-        else:
-            assert (shown.default, shown.hard_min, shown.hard_max) == (
-                option.default,
-                option.minimum,
-                option.maximum,
-            )
+        assert_shows(preferences().bl_rna.properties[name], option)
     assert cache().room == settings.CACHE_SIZE.default * MEGABYTE
 
 
@@ -90,14 +71,13 @@ def test_saved_preferences_hold_from_the_first_computation():
 
 
 def test_kept_analyses_are_freed_on_demand(capfd):
-    source = ellipsoid(segments=5)
-    compute()
-    size, count = cache().bytes, len(result_of(source).data.polygons)
+    result = compute(ellipsoid(segments=5))
+    size, count = cache().bytes, len(result.data.polygons)
     assert size > MEGABYTE / 2
     reports(capfd)
     assert bpy.ops.wm.medial_axis_free_memory() == {"FINISHED"}
     assert reports(capfd) == [("Info", f"{size / MEGABYTE:,.0f} MB were freed")]
-    assert cache().bytes == 0 and len(result_of(source).data.polygons) == count
+    assert cache().bytes == 0 and len(result.data.polygons) == count
 
 
 def test_kept_analyses_are_freed_with_the_addon():
@@ -154,18 +134,19 @@ def test_surfaces_are_thinned(tight):
 
 def test_reports_of_the_sampling_have_the_limit(tight):
     select(ellipsoid(segments=5))
-    before = contents()
-    with pytest.raises(RuntimeError, match="fits into the free memory"):
-        bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE")
-    assert contents() == before
+    refuse("fits into the free memory", "medial_axis_sampling_report", sampling="SURFACE")
     preferences().above_limit = "THIN"
     assert bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE") == {"FINISHED"}
 
 
 def test_sequences_have_the_limit(tight, tmp_path):
     scan()
-    with pytest.raises(RuntimeError, match="Expected results of 1 frames, found none"):
-        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
+    refuse(
+        "Expected results of 1 frames, found none",
+        "medial_axis_sequence",
+        directory=str(tmp_path),
+        frames="1",
+    )
     preferences().above_limit = "THIN"
     done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
     assert done == {"FINISHED"} and len(list(tmp_path.glob("*.npz"))) == 1

@@ -5,17 +5,11 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix
-from scene import addon, refuse, select
+from installed import addon
+from measure import evaluated, volume
+from scene import link, plate, select
 
 T = 0.05
-
-
-def plate(thickness=T):
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    thing = bpy.context.object
-    thing.data.transform(Matrix.Diagonal((1.0, 1.0, thickness / 2, 1.0)))
-    return thing
 
 
 def unsolidify(**options):
@@ -24,7 +18,7 @@ def unsolidify(**options):
 
 
 def test_a_plate_is_one_sheet_with_its_thickness():
-    source = plate()
+    source = plate(T)
     made = unsolidify()
     assert made.name == "Cube Mid-Surface" and made.parent == source
     assert made.show_in_front, "it lies inside the walls"
@@ -38,14 +32,9 @@ def test_a_plate_is_one_sheet_with_its_thickness():
 def test_a_bracket_is_two_rectangles():
     """Two legs of 1 and 0.5, 1 deep: the middle of each ends where the other one begins."""
     half, corners = T / 2, [(0, 0), (1, 0), (1, T), (T, T), (T, 0.5), (0, 0.5)]
-    mesh = bpy.data.meshes.new("Bracket")
     points = [(x, y, z) for y in (0.0, 1.0) for x, z in corners]
     sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-    mesh.from_pydata(points, [], [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides])
-    bracket = bpy.data.objects.new("Bracket", mesh)
-    bpy.context.collection.objects.link(bracket)
-    bpy.context.view_layer.objects.active = bracket
-    bracket.select_set(True)
+    link("Bracket", points, [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides])
     made = unsolidify()
     found = {tuple(round(float(x), 4) + 0.0 for x in each.co) for each in made.data.vertices}
     wanted = {(x, y, z) for x, z in ((half, half), (1.0, half), (half, 0.5)) for y in (0.0, 1.0)}
@@ -54,7 +43,7 @@ def test_a_bracket_is_two_rectangles():
 
 
 def test_a_sheet_is_coloured_by_thickness():
-    plate()
+    plate(T)
     made = unsolidify()
 
     assert made["ma_color_of"] == "ma_thickness" and made["ma_color_start"] == pytest.approx(
@@ -66,18 +55,14 @@ def test_a_sheet_is_coloured_by_thickness():
 
 
 def test_solidify_gives_the_solid_back():
-    plate()
+    plate(T)
     made = unsolidify()
     made.modifiers[0].show_viewport = True
-    found = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    mesh = bmesh.new()
-    mesh.from_mesh(found)
-    assert abs(mesh.calc_volume()) == pytest.approx(4.0 * T, rel=0.01)
-    mesh.free()
+    assert volume(evaluated(made)) == pytest.approx(4.0 * T, rel=0.01)
 
 
 def test_again_updates_the_same_object():
-    source = plate()
+    source = plate(T)
     made = unsolidify()
     bpy.context.view_layer.objects.active = source
     assert unsolidify(size=0.5) == made and len(made.modifiers) == 1
@@ -88,7 +73,7 @@ def test_again_updates_the_same_object():
 
 
 def test_quads_are_a_grid():
-    plate()
+    plate(T)
     made = unsolidify(size=0.5, quads=True)
     corners = [len(face.vertices) for face in made.data.polygons]
     assert corners == [4] * 16 and len(made.data.vertices) == 25
@@ -96,7 +81,7 @@ def test_quads_are_a_grid():
 
 def test_thick_parts_are_an_object_of_their_own_by_choice():
     """A bar with a fin on it, as two boxes of one mesh: the bar is kept, and goes when it is not asked for."""
-    mesh = bpy.data.meshes.new("Bar")
+    bar = link("Bar", [])
     bm = bmesh.new()
     outline = [(-1, -1), (1, -1), (1, 1), (T / 2, 1), (T / 2, 3), (-T / 2, 3), (-T / 2, 1), (-1, 1)]
     face = bm.faces.new([bm.verts.new((x, 0.0, z)) for x, z in outline])
@@ -104,11 +89,8 @@ def test_thick_parts_are_an_object_of_their_own_by_choice():
     verts = [each for each in moved if isinstance(each, bmesh.types.BMVert)]
     bmesh.ops.translate(bm, verts=verts, vec=(0.0, 3.0, 0.0))
     bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
-    bm.to_mesh(mesh)
+    bm.to_mesh(bar.data)
     bm.free()
-    bar = bpy.data.objects.new("Bar", mesh)
-    bpy.context.collection.objects.link(bar)
-    select(bar)
     unsolidify(keep_thick=True)
     kept = bpy.data.objects["Bar Thick Parts"]
     assert kept.parent == bar and max(each.co.z for each in kept.data.vertices) < 1.001
@@ -119,13 +101,8 @@ def test_thick_parts_are_an_object_of_their_own_by_choice():
     assert "Bar Thick Parts" not in bpy.data.objects and "Bar Mid-Surface" in bpy.data.objects
 
 
-def test_a_block_has_no_sheets():
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    refuse("found none", operator="medial_axis_unsolidify", samples=4000)
-
-
 def test_it_is_seen_also_where_the_thickness_was_measured_on_a_copy():
-    source = plate()
+    source = plate(T)
     assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
     copy = addon("bridge.thickness.thickness_object").carrier_of(source)
     assert copy != source and copy.show_in_front

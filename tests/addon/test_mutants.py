@@ -9,8 +9,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from installed import addon
+from measure import attribute, contents, positions, radii_are_sound
 from mutants import mutant, options
-from scene import addon, attribute, contents, positions, radii_are_sound
 
 try:
     import resource

@@ -1,25 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The groups of Geometry Nodes: what they make of an axis, in this Blender as in any other."""
 
-import subprocess
 from pathlib import Path
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    MODULE,
-    addon,
-    attribute,
-    compute,
-    ellipsoid,
-    link,
-    program,
-    result_of,
-    select,
-    torus,
-)
+from installed import MODULE, addon, program, succeeded
+from measure import attribute, evaluated, result_of, volume
+from scene import compute, ellipsoid, link, refuse, select, torus
 
 KEYS = ("FILTER", "BALLS", "REBUILD", "COLOUR")
 
@@ -36,12 +25,6 @@ def with_group(thing, key, **values):
     return modifier
 
 
-def evaluated(thing):
-    """The mesh that an object is after its modifiers."""
-    bpy.context.view_layer.update()
-    return thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-
-
 def instances(thing):
     """(matrices' scales) of what an object instances."""
     bpy.context.view_layer.update()
@@ -51,14 +34,6 @@ def instances(thing):
         for one in graph.object_instances
         if one.is_instance and one.parent.original == thing
     ]
-
-
-def volume(mesh):
-    with_bmesh = bmesh.new()
-    with_bmesh.from_mesh(mesh)
-    found = abs(with_bmesh.calc_volume())
-    with_bmesh.free()
-    return found
 
 
 def axis_of(source, **settings):
@@ -221,10 +196,7 @@ def test_colour_goes_from_the_first_to_the_last_colour():
 
 def colours(mesh):
     """(n, 3) of `ma_color`."""
-    data = mesh.attributes["ma_color"].data
-    found = np.empty(4 * len(data), np.float32)
-    data.foreach_get("color", found)
-    return found.reshape(-1, 4)[:, :3]
+    return attribute(mesh, "ma_color")[:, :3]
 
 
 # --- the menu, the library, and files without the add-on
@@ -232,8 +204,7 @@ def colours(mesh):
 
 def test_the_menu_adds_a_group_to_the_axis_of_the_active_object():
     source = ellipsoid()
-    with pytest.raises(RuntimeError, match="Select a medial axis"):
-        bpy.ops.object.medial_axis_nodes(group="BALLS")
+    refuse("Select a medial axis", "medial_axis_nodes", group="BALLS")
     compute(side="INNER")
     select(source)
     for _ in range(2):
@@ -317,6 +288,5 @@ def test_a_file_evaluates_without_the_add_on(tmp_path):
     file = tmp_path / "two.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     words = [program(), "--background", "--factory-startup", str(file), "--python-expr", COUNT]
-    done = subprocess.run(words, capture_output=True, text=True)
-    assert f"COUNTED {expected}\n" in done.stdout, done.stdout + done.stderr
+    assert f"COUNTED {expected}\n" in succeeded(words)
     assert expected > 100

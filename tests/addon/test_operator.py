@@ -7,33 +7,22 @@ from types import MethodType, SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
+from installed import addon
+from measure import (
     analyses,
     attribute,
-    compute,
     direct,
-    ellipsoid,
-    link,
+    evaluated,
+    generators,
     medial_objects,
     positions,
-    renders,
+    read,
     reports,
     result_of,
-    scan,
-    select,
-    suzanne,
-    torus,
     triangles_of,
     world_positions,
 )
-
-
-def evaluated_points(source):
-    evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    points = positions(evaluated.to_mesh())
-    evaluated.to_mesh_clear()
-    return points
+from scene import compute, ellipsoid, link, refuse, reopened, scan, select, suzanne, torus
 
 
 def snapshot(thing):
@@ -64,15 +53,9 @@ def assert_holds(thing, axis):
     np.testing.assert_array_equal(attribute(mesh, "ma_theta"), axis.theta.astype(np.float32))
     np.testing.assert_array_equal(attribute(mesh, "ma_rho"), axis.rho.astype(np.float32))
     np.testing.assert_array_equal(attribute(mesh, "ma_side"), axis.side)
-    if "ma_generators" in mesh.attributes:
-        pairs = attribute(mesh, "ma_generators")
-    else:
-        pairs = np.column_stack([attribute(mesh, f"ma_generator_{end}") for end in "ab"])
-    np.testing.assert_array_equal(pairs, axis.generators)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    starts = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
+    np.testing.assert_array_equal(generators(mesh), axis.generators)
+    corners = [loop.vertex_index for loop in mesh.loops]
+    starts = [polygon.loop_start for polygon in mesh.polygons]
     np.testing.assert_array_equal(corners, axis.face_vertices)
     np.testing.assert_array_equal(starts, axis.face_offsets[:-1])
 
@@ -86,7 +69,7 @@ def test_subdivided_suzanne():
     collection.objects.link(source)
     select(source)
     before = snapshot(source)
-    points = evaluated_points(source)
+    points = positions(evaluated(source))
     result = compute()
     assert result.name == "Suzanne Medial Axis"
     assert list(result.users_collection) == [collection]
@@ -227,8 +210,7 @@ def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
     select(source)
     bpy.ops.object.delete()
     select(result)
-    with pytest.raises(RuntimeError, match="source is gone"):
-        bpy.ops.object.medial_axis()
+    refuse("source is gone", "object.medial_axis")
 
 
 def test_moved_and_changed_result_is_put_back_and_keeps_the_artists_choices():
@@ -258,45 +240,6 @@ def test_material_is_made_once_and_spans_each_objects_own_radii():
         radius = attribute(result_of(source).data, "ma_radius")
         assert result_of(source)["ma_radius_min"] == pytest.approx(radius.min(), rel=1e-6)
         assert result_of(source)["ma_radius_max"] == pytest.approx(radius.max(), rel=1e-6)
-
-
-def pixels_of(result, folder):
-    """The result rendered from above with light that shows base colours only: (n, 3)."""
-    scene = bpy.context.scene
-    scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.use_denoising = 4, False
-    scene.view_settings.view_transform = "Raw"
-    scene.render.resolution_x = scene.render.resolution_y = 48
-    scene.render.film_transparent = True
-    scene.world = bpy.data.worlds.new("White")
-    scene.world.color = (1, 1, 1)
-    if scene.world.node_tree:  # from 5.0 always
-        scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1, 1, 1, 1)
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    camera.data.type, camera.data.ortho_scale = "ORTHO", 2.5 * max(result.dimensions)
-    camera.location = result.matrix_world.translation
-    camera.location.z += 10
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    scene.render.filepath = str(folder / "render.png")
-    bpy.ops.render.render(write_still=True)
-    image = bpy.data.images.load(scene.render.filepath)
-    values = np.array(image.pixels[:]).reshape(-1, 4)
-    return values[values[:, 3] > 0.9, :3]
-
-
-@renders
-def test_material_renders_the_whole_ramp_from_thin_to_thick(tmp_path):
-    source = ellipsoid(axes=(1.0, 0.7, 0.3))
-    compute()
-    source.hide_render = True
-    bpy.context.view_layer.update()
-    colours = pixels_of(result_of(source), tmp_path)
-    assert len(colours) > 20
-    red_minus_blue = colours[:, 0] - colours[:, 2]
-    assert red_minus_blue.max() - red_minus_blue.min() > 0.2, (
-        "one colour: the radius does not reach the shader"
-    )
 
 
 def test_theta_and_rho_are_filtered_from_the_kept_analysis():
@@ -332,27 +275,25 @@ def test_sliders_act_on_the_source_too_and_leave_placement_alone():
 
 
 def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
-    source = torus()
-    compute()
-    count = len(result_of(source).data.polygons)
+    result = compute(torus())
+    count = len(result.data.polygons)
     panel = bpy.context.scene.medial_axis
     panel.form = "PUBLISHED"
     panel.criteria = "RATIO"
-    kept = len(result_of(source).data.polygons)
+    kept = len(result.data.polygons)
     panel.rho = 1e9
-    assert len(result_of(source).data.polygons) == kept <= count
+    assert len(result.data.polygons) == kept <= count
     assert "No facet" in panel.note
     panel.rho = 8.0
     assert panel.note == ""
 
 
 def test_slider_without_kept_analysis_asks_for_compute():
-    source = ellipsoid()
-    compute()
+    result = compute(ellipsoid())
     addon("core.machine.cache").CACHE.clear()
-    count = len(result_of(source).data.polygons)
+    count = len(result.data.polygons)
     bpy.context.scene.medial_axis.theta = 1.2
-    assert len(result_of(source).data.polygons) == count
+    assert len(result.data.polygons) == count
     assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
 
 
@@ -388,9 +329,8 @@ def test_edit_mode_sees_modifiers():
     bpy.ops.object.mode_set(mode="EDIT")
     compute()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert (
-        result_of(source)["ma_points"] == len(evaluated_points(source)) > len(source.data.vertices)
-    )
+    count = len(evaluated(source).vertices)
+    assert result_of(source)["ma_points"] == count > len(source.data.vertices)
 
 
 def test_result_in_edit_mode_is_refused():
@@ -398,8 +338,9 @@ def test_result_in_edit_mode_is_refused():
     result = compute()
     count = len(result.data.polygons)
     bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match="in object mode, found it in edit mode"):
-        bpy.ops.object.medial_axis(theta=1.2)
+    refuse(
+        "in object mode, found it in edit mode; leave that mode", "object.medial_axis", theta=1.2
+    )
     bpy.context.scene.medial_axis.theta = 1.2
     assert "object mode" in bpy.context.scene.medial_axis.note
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -419,8 +360,7 @@ def test_result_survives_saving_and_loading(tmp_path):
     source = ellipsoid()
     compute()
     count = len(result_of(source).data.polygons)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    reopened(tmp_path / "saved.blend")
     source = bpy.data.objects["Ellipsoid"]
     assert len(result_of(source).data.polygons) == count
     bpy.context.scene.medial_axis.theta = 1.2
@@ -475,11 +415,6 @@ def drafted(source, **settings):
     operator._show_draft(found, outcome)
     assert operator._kept
     return result_of(source)
-
-
-def read(source):
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    return addon("bridge.objects.read_object").read_object(source, depsgraph)
 
 
 def test_a_first_click_shows_a_draft_whose_place_the_exact_axis_takes():

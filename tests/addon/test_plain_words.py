@@ -6,7 +6,7 @@ import re
 import blf
 import bpy
 import pytest
-from scene import addon
+from installed import addon
 from test_rows import Layout, seen
 
 

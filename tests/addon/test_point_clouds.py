@@ -4,18 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    compute,
-    ellipsoid,
-    on_ellipsoid,
-    positions,
-    refuse,
-    result_of,
-    select,
-    world_positions,
-)
+from installed import addon
+from measure import attribute, positions, read, result_of, world_positions
+from scene import added, compute, ellipsoid, refuse, select
+from support.clouds import on_ellipsoid
 
 
 def point_cloud(points, normals=None, name="Cloud"):
@@ -27,8 +19,7 @@ def point_cloud(points, normals=None, name="Cloud"):
         bpy.context.scene.collection.objects.link(thing)
     elif hasattr(experimental, "use_new_point_cloud_type"):
         experimental.use_new_point_cloud_type = True
-        bpy.ops.object.pointcloud_add()
-        thing = bpy.context.object
+        thing = added("object.pointcloud")
         thing.name = name
     else:
         pytest.skip("this Blender makes no point cloud objects from Python")
@@ -40,12 +31,6 @@ def point_cloud(points, normals=None, name="Cloud"):
         addon("bridge.mesh.attributes").add_normals(thing.data.attributes, normals[:count])
     select(thing)
     return thing
-
-
-def shape_of(thing):
-    return addon("bridge.objects.read_object").read_object(
-        thing, bpy.context.evaluated_depsgraph_get()
-    )
 
 
 def to_points(source):
@@ -73,7 +58,7 @@ CLOUD = 400  # what pointcloud_add makes
 
 def test_point_cloud_is_read():
     points, _ = on_ellipsoid(CLOUD)
-    shape = shape_of(point_cloud(points))
+    shape = read(point_cloud(points))
     np.testing.assert_array_equal(shape.points, points.astype(np.float32))
     assert shape.triangles.shape == (0, 3) and shape.normals is None
 
@@ -122,7 +107,7 @@ def test_points_that_geometry_nodes_make_of_a_mesh():
     source = ellipsoid()
     before = positions(source.data)
     to_points(source)
-    np.testing.assert_array_equal(shape_of(source).points, before)
+    np.testing.assert_array_equal(read(source).points, before)
     compute()
     assert result_of(source)["ma_sides"] == "TIGHT_COCONE"
     assert result_of(source)["ma_points"] == len(before)
@@ -133,7 +118,7 @@ def test_points_of_another_object_are_not_taken():
     to_points(other)
     count = len(source.data.vertices)
     to_points(source)
-    assert len(shape_of(source).points) == count
+    assert len(read(source).points) == count
     source.modifiers.clear()
     source.data.clear_geometry()
     select(source)

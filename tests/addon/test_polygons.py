@@ -1,22 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons in Blender: the same triangles as from a file, quads cut as Blender cuts them."""
 
-import bpy
 import numpy as np
-from scene import addon, positions, triangles_of
-
-
-def mesh_object(points, faces):
-    mesh = bpy.data.meshes.new("polygons")
-    mesh.from_pydata(np.asarray(points, float).tolist(), [], faces)
-    thing = bpy.data.objects.new("polygons", mesh)
-    bpy.context.collection.objects.link(thing)
-    return thing
-
-
-def triangles_read(thing):
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    return addon("bridge.objects.read_object").read_object(thing, depsgraph).triangles
+from installed import addon
+from measure import positions, read, triangles_of
+from scene import added, link
 
 
 def star(count, z):
@@ -26,13 +14,12 @@ def star(count, z):
 
 
 def test_quads_are_cut_as_blender_cuts_them():
-    bpy.ops.mesh.primitive_torus_add(major_segments=40, minor_segments=16)
-    thing = bpy.context.object
-    np.testing.assert_array_equal(triangles_read(thing), triangles_of(thing.data))
-    dart = mesh_object([(0, 0, 0), (3, 0.1, 0), (0, 0.2, 0), (0.5, 0.1, 0)], [(0, 1, 2, 3)])
-    np.testing.assert_array_equal(triangles_read(dart), triangles_of(dart.data))
-    turned = mesh_object([(3, 0.1, 0), (0, 0.2, 0), (0.5, 0.1, 0), (0, 0, 0)], [(0, 1, 2, 3)])
-    np.testing.assert_array_equal(triangles_read(turned), triangles_of(turned.data))
+    thing = added("torus", major_segments=40, minor_segments=16)
+    np.testing.assert_array_equal(read(thing).triangles, triangles_of(thing.data))
+    dart = link("polygons", [(0, 0, 0), (3, 0.1, 0), (0, 0.2, 0), (0.5, 0.1, 0)], [(0, 1, 2, 3)])
+    np.testing.assert_array_equal(read(dart).triangles, triangles_of(dart.data))
+    turned = link("polygons", [(3, 0.1, 0), (0, 0.2, 0), (0.5, 0.1, 0), (0, 0, 0)], [(0, 1, 2, 3)])
+    np.testing.assert_array_equal(read(turned).triangles, triangles_of(turned.data))
 
 
 def test_caps_of_many_corners_have_the_triangles_of_a_file(tmp_path):
@@ -41,17 +28,17 @@ def test_caps_of_many_corners_have_the_triangles_of_a_file(tmp_path):
     after = np.roll(np.arange(count), -1)
     sides = [(i, int(after[i]), int(after[i]) + count, i + count) for i in range(count)]
     faces = [*sides, tuple(reversed(range(count))), tuple(range(count, 2 * count))]
-    thing = mesh_object(points, faces)
+    thing = link("polygons", points, faces)
     path = tmp_path / "a.obj"
     lines = ["v {!r} {!r} {!r}".format(*row) for row in positions(thing.data).tolist()]
     lines += ["f " + " ".join(str(i + 1) for i in face) for face in faces]
     path.write_text("\n".join(lines))
     shape, _ = addon("core.files.read_shape").read_shape(path)
-    found = triangles_read(thing)
+    found = read(thing).triangles
     assert len(found) == 4 * count - 4
     np.testing.assert_array_equal(found, shape.triangles)
 
 
 def test_edges_and_points_without_faces_do_not_matter():
-    thing = mesh_object([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [])
-    assert triangles_read(thing).shape == (0, 3)
+    thing = link("polygons", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [])
+    assert read(thing).triangles.shape == (0, 3)

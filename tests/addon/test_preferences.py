@@ -8,38 +8,25 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import MODULE, addon, contents, reports
-from test_rows import seen
+from installed import MODULE, addon
+from measure import contents, reports
+from scene import refuse
+from test_rows import Layout, seen
 
 CHECKS = 8
 
 
-class Layout:
-    """Records what is drawn, and knows no way to do anything slow."""
-
-    def __init__(self, drawn=None):
-        self.drawn = [] if drawn is None else drawn
-
-    def _child(self, **_):
-        return Layout(self.drawn)
-
-    box = column = row = split = _child
-
-    def label(self, text="", icon="NONE", translate=True):
-        self.drawn.append(text)
+class Page(Layout):
+    """Names its properties, all of which there are, and knows no way to do anything slow."""
 
     def prop(self, owner, name, **_):
         assert name in owner.bl_rna.properties
-        self.drawn.append(name)
-
-    def operator(self, name, text="", icon="NONE", emboss=True):
-        self.drawn.append(text or name)
-        return SimpleNamespace()
+        self._item(name)
 
 
 def page(whole=True):
     """The rows of the preferences; with `whole` those of the part that is closed at first, too."""
-    layout = Layout()
+    layout = Page()
     draw = addon("ui.settings.preferences").MedialAxisPreferences.draw
     owner = bpy.context.preferences.addons[MODULE].preferences
     shown = SimpleNamespace(
@@ -47,7 +34,7 @@ def page(whole=True):
     )
     shown.show_installed = whole
     draw(shown, seen(width=10_000))
-    return layout.drawn
+    return [text for row in layout.rows for text in row]
 
 
 @pytest.fixture(autouse=True)
@@ -94,8 +81,7 @@ def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
     native = addon("core.machine.native")
     monkeypatch.setattr(native, "LIB", tmp_path)
     monkeypatch.setattr(native, "_module", None)
-    with pytest.raises(RuntimeError, match="Failed: Expected the compiled module for"):
-        bpy.ops.wm.medial_axis_self_test()
+    refuse("Failed: Expected the compiled module for", "wm.medial_axis_self_test")
     assert not addon("ui.settings.self_test_operator").last()[0].passed
 
 

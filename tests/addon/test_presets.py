@@ -6,7 +6,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import addon
+from installed import addon
 
 FOLDER = Path(addon().__file__).parent / "presets" / "medial_axis"
 # The settings in which each preset differs from the defaults.

@@ -6,7 +6,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, positions, result_of, select
+from installed import addon
+from measure import positions, result_of
+from scene import compute, ellipsoid, reopened, select
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500, "form": "CLEAN"}
 
@@ -95,9 +97,7 @@ def test_keys_are_of_the_length(result):
 def test_files_keep_lengths_and_ranges(result, tmp_path):
     panel().erode_share = 50.0
     length, name = panel().erode, result.name
-    path = str(tmp_path / "kept.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
+    reopened(tmp_path / "kept.blend")
     assert panel().erode == pytest.approx(length)
     select(bpy.data.objects[name])
     assert shown_row("erode") == ("erode_share", True)
@@ -121,9 +121,7 @@ def test_simplify_goes_to_the_gap_of_a_noisy_body(tmp_path):
     assert 0.3 * whole < facets(result) < whole
     panel().simplify = 0.0
     assert facets(result) == whole
-    path = str(tmp_path / "kept.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
+    reopened(tmp_path / "kept.blend")
     select(bpy.data.objects[name])
     assert bpy.ops.object.medial_axis_simplify_to_gap.poll()
 

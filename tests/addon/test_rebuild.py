@@ -6,21 +6,10 @@ import re
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    compute,
-    contents,
-    ellipsoid,
-    exclude,
-    link,
-    positions,
-    reports,
-    result_of,
-    select,
-    torus,
-)
-from test_nodes import ball_volume, evaluated, volume
+from installed import addon
+from measure import attribute, contents, evaluated, positions, reports, result_of, volume
+from scene import added, compute, ellipsoid, exclude, link, refuse, select, torus, tube_ring
+from test_nodes import ball_volume
 
 
 def rebuilt(thing):
@@ -83,10 +72,7 @@ def test_along_an_edge_radii_are_linear():
 
 
 def test_offset_of_a_torus_is_a_thicker_torus():
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=96, minor_segments=48, major_radius=1.0, minor_radius=0.4
-    )
-    source = bpy.context.object
+    source = tube_ring(96, 48, 0.4)
     compute(form="CLEAN", side="INNER")
     made = rebuild(source, Offset=0.1)
     exact = 2 * np.pi**2 * (0.4 + 0.1) ** 2
@@ -94,8 +80,7 @@ def test_offset_of_a_torus_is_a_thicker_torus():
 
 
 def test_offset_of_a_box():
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    source = bpy.context.object
+    source = added("cube", size=2)
     compute(form="CLEAN", side="INNER", sampling="ADAPTIVE")
     made = rebuild(source, Offset=0.2)
     # Faces, quarters of cylinders along the edges, eighths of balls at the corners.
@@ -105,10 +90,7 @@ def test_offset_of_a_box():
 
 def test_a_torus_is_hollowed_out():
     """The source minus its rebuilt inside: a wall of the offset's thickness, and the surface as it was."""
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=64, minor_segments=32, major_radius=1.0, minor_radius=0.4
-    )
-    source = bpy.context.object
+    source = tube_ring(64, 32, 0.4)
     compute(form="CLEAN", side="INNER")
     made = rebuild(source, Offset=-0.1, Voxel=0.05)
     inside = volume(evaluated(made))
@@ -125,10 +107,7 @@ def test_a_torus_is_hollowed_out():
 def test_an_outer_axis_is_refused():
     torus()
     compute(side="OUTER")
-    before = contents()
-    with pytest.raises(RuntimeError, match="Expected a medial axis of the inside"):
-        bpy.ops.object.medial_axis_rebuild()
-    assert contents() == before
+    refuse("Expected a medial axis of the inside", "medial_axis_rebuild")
 
 
 @pytest.mark.parametrize("size", [1e-12, 1e-7, 1e-4, 1e6])
@@ -195,8 +174,7 @@ def test_colours_change_without_teeth():
     """Next to each other vertices have nearly the same radius; that of the nearest ball alone jumps from row to row."""
     bpy.ops.mesh.primitive_cone_add(vertices=64, radius1=1.0, depth=3.0)
     compute(form="CLEAN", sampling="SURFACE", samples=4_000)
-    made = rebuild(bpy.data.objects["Cone"], Voxel=0.015)
-    mesh = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    mesh = evaluated(rebuild(bpy.data.objects["Cone"], Voxel=0.015))
     radius = attribute(mesh, "ma_radius")
     edges = np.array([edge.vertices for edge in mesh.edges])
     steps = np.abs(np.diff(radius[edges], axis=1))

@@ -6,22 +6,10 @@ import re
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils.kdtree import KDTree
-from scene import (
-    addon,
-    attribute,
-    compute,
-    contents,
-    ellipsoid,
-    link,
-    positions,
-    reports,
-    result_of,
-    select,
-    suzanne,
-    triangles_of,
-)
-from test_nodes import evaluated, volume
+from measure import attribute, contents, evaluated, positions, read, reports, result_of, volume
+from scene import box, compute, ellipsoid, export, refuse, select, suzanne
 
 
 def reduced_of(source):
@@ -109,7 +97,7 @@ def test_it_is_exported(tmp_path):
     made = reduce(source, 20)
     select(made)
     path = tmp_path / "small.ma"
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     read = addon("core.files.read_ma").read_ma(path)
     assert np.allclose(read.vertices, positions(made.data), atol=1e-6)
 
@@ -127,14 +115,7 @@ def test_without_an_axis_it_says_so():
     source = ellipsoid()
     select(source)
     assert not bpy.ops.object.medial_axis_reduce.poll()
-    with pytest.raises(RuntimeError, match="Select a medial axis"):
-        bpy.ops.object.medial_axis_reduce()
-
-
-def box():
-    corners = [(x, y, z) for x in (-1, 1) for y in (-0.7, 0.7) for z in (-0.4, 0.4)]
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return link("Box", corners, faces)
+    refuse("Select a medial axis", "medial_axis_reduce")
 
 
 def faces_of(mesh):
@@ -142,13 +123,15 @@ def faces_of(mesh):
 
 
 def test_a_box_is_thirteen_polygons_as_the_library_makes_them():
-    source = box()
+    source = box(2.0, 1.4, 0.8)
     compute(form="CLEAN", side="INNER", sampling="SURFACE", samples=3000)
     made = reduce(source, 100)
     assert (len(made.data.vertices), len(made.data.polygons)) == (12, 13)
     assert not made.data.validate(verbose=True)
-    points, triangles = positions(source.data).astype(float), triangles_of(source.data)
-    found = addon("library").compute(points, triangles, sampling="surface", samples=3000)
+    shape = read(source)
+    found = addon("library").compute(
+        shape.points, shape.triangles, sampling="surface", samples=3000
+    )
     small = addon("library").reduce(found, 100)
     assert np.array_equal(positions(made.data), small.vertices.astype(np.float32))
     assert np.array_equal(attribute(made.data, "ma_radius"), small.radius.astype(np.float32))

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import MODULE, addon, compute, ellipsoid, link, result_of
+from installed import MODULE, addon
+from scene import compute, ellipsoid, link
 
 SAMPLING = (
     "sampling",
@@ -74,9 +75,7 @@ def test_disable_removes_everything_and_enable_brings_it_back():
         ]
         bpy.ops.preferences.addon_enable(module=MODULE)
         assert all(present().values()), present()
-    source = ellipsoid()
-    compute()
-    assert result_of(source) is not None
+    assert compute(ellipsoid()) is not None
 
 
 def test_registration_leaves_the_file_alone():
@@ -110,37 +109,36 @@ def test_options_of_operator_and_panel_come_from_settings(name):
     if name in ("side", "sides", *SAMPLING):
         owners.append(bpy.ops.object.medial_axis_sampling_report.get_rna_type())
     for owner in owners:
-        shown = owner.properties[name]
-        assert (shown.name, shown.description) == (option.label, option.description)
-        if shown.type == "ENUM":
-            assert shown.default == option.default.name
-            assert [(i.identifier, i.name) for i in shown.enum_items] == [
-                (member.name, label) for member, (label, _) in option.items.items()
-            ]
-        elif shown.type == "FLOAT":
-            assert shown.default == pytest.approx(option.default, rel=1e-7)
-            assert shown.hard_min == pytest.approx(option.minimum, rel=1e-7)
-            if math.isfinite(option.maximum):
-                assert shown.hard_max == pytest.approx(option.maximum, rel=1e-7)
-            assert shown.soft_max == pytest.approx(option.soft_maximum, rel=1e-7)
-            assert (shown.subtype == "ANGLE") == (option.unit == "rad")
-            assert (shown.subtype == "PERCENTAGE") == (option.unit == "%")
-        elif shown.type == "INT":
-            assert (
-                shown.default,
-                shown.hard_min,
-                shown.hard_max,
-                shown.soft_min,
-                shown.soft_max,
-            ) == (
-                option.default,
-                option.minimum,
-                option.maximum,
-                option.soft_minimum,
-                option.soft_maximum,
-            )
-        else:
-            assert shown.default == option.default
+        assert_shows(owner.properties[name], option)
+
+
+# The property of a number has these from its option.
+FLOATS = {
+    "default": "default",
+    "hard_min": "minimum",
+    "hard_max": "maximum",
+    "soft_max": "soft_maximum",
+}
+INTEGERS = FLOATS | {"soft_min": "soft_minimum"}
+
+
+def assert_shows(shown, option):
+    """A property of Blender is that of an option."""
+    assert (shown.name, shown.description) == (option.label, option.description)
+    if shown.type == "ENUM":
+        assert shown.default == option.default.name
+        assert [(i.identifier, i.name) for i in shown.enum_items] == [
+            (member.name, label) for member, (label, _) in option.items.items()
+        ]
+    elif shown.type in ("FLOAT", "INT"):
+        for name, own in (FLOATS if shown.type == "FLOAT" else INTEGERS).items():
+            value = getattr(option, own)
+            same = value if shown.type == "INT" else pytest.approx(value, rel=1e-7)
+            assert getattr(shown, name) == same or not math.isfinite(value), name
+        assert (shown.subtype == "ANGLE") == (option.unit == "rad")
+        assert (shown.subtype == "PERCENTAGE") == (option.unit == "%")
+    else:
+        assert shown.default == option.default
 
 
 def test_all_options_are_tested_here():

@@ -6,8 +6,10 @@ import math
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Matrix
-from scene import addon, contents, link, positions, refuse, select, world_positions
+from measure import contents, evaluated, positions, world_positions
+from scene import added, link, refuse, select
 
 
 def figure(name="Figure", tail=False):
@@ -62,9 +64,7 @@ def make(source, **settings):
 
 
 def shown(source):
-    bpy.context.view_layer.update()
-    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return positions(mesh.data)
+    return positions(evaluated(source))
 
 
 def test_symmetrize_gives_the_same_bones_again():
@@ -127,8 +127,7 @@ def test_limbs_reach_for_their_targets():
 
 def own_armature():
     """An artist's armature with one bone that is turned, itself moved and scaled."""
-    bpy.ops.object.armature_add(location=(3, 0, 0))
-    thing = bpy.context.object
+    thing = added("object.armature", location=(3, 0, 0))
     thing.name, thing.scale = "Cast", (2, 2, 2)
     bone = thing.pose.bones[0]
     bone.name, bone.rotation_mode, bone.rotation_euler = "cape", "XYZ", (0.4, 0, 0)

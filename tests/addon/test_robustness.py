@@ -8,7 +8,8 @@ import time
 
 import bpy
 import pytest
-from scene import MODULE, compute, program, select, torus
+from installed import MODULE, program
+from scene import compute, export, select, torus
 
 # Exports the active object to the file named after `--`, again and again.
 EXPORT_FOREVER = f"""
@@ -55,7 +56,7 @@ def save(path):
 
 def content_of(path):
     """The bytes of the file that the export of the active object writes."""
-    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    export(path)
     return path.read_bytes()
 
 

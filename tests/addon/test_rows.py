@@ -5,7 +5,8 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from scene import MODULE, addon, select, suzanne
+from installed import MODULE, addon
+from scene import select, suzanne
 
 MAIN = "VIEW3D_PT_medial_axis"
 
@@ -17,14 +18,14 @@ class Layout:
         self.rows, self._inside, self._counted = [] if rows is None else rows, inside, False
 
     def column(self, **_):
-        return Layout(self.rows, self._inside)
+        return type(self)(self.rows, self._inside)
 
     box = column
 
     def row(self, **_):
         if not self._inside:
             self.rows.append([])
-        return Layout(self.rows, inside=True)
+        return type(self)(self.rows, inside=True)
 
     split = row
 
@@ -35,6 +36,12 @@ class Layout:
         return SimpleNamespace()
 
     label = prop = operator = menu = _item
+
+    def operator_menu_enum(self, name, _property, **words):
+        return self._item(name, **words)
+
+    def separator(self):
+        """It is no row."""
 
 
 def seen(is_colour=False, width=400):

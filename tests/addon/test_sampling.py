@@ -8,19 +8,9 @@ from functools import partial
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    analyses,
-    attribute,
-    contents,
-    medial_objects,
-    positions,
-    reports,
-    result_of,
-    select,
-    sound,
-    torus,
-)
+from installed import addon
+from measure import analyses, attribute, positions, read, reports, result_of, sound, watched
+from scene import added, ring, select, torus
 
 
 def click(**settings):
@@ -30,16 +20,6 @@ def click(**settings):
     result = result_of(source)
     assert answer == ({"CANCELLED"} if result is None else {"FINISHED"})
     return result
-
-
-def refused(match, **settings):
-    """The sentence with which a click is refused; nothing changed."""
-    before = contents()
-    with pytest.raises(RuntimeError, match=match) as caught:
-        bpy.ops.object.medial_axis(**settings)
-    assert contents() == before and "Traceback" not in str(caught.value)
-    assert len([line for line in str(caught.value).splitlines() if line.strip()]) == 1
-    return str(caught.value)
 
 
 # --- the shapes people try first: distance into the solid (negative outside), largest radius
@@ -97,8 +77,7 @@ def test_factory_solids(kind):
 
 
 def test_suzanne_as_she_is():
-    bpy.ops.mesh.primitive_monkey_add()
-    monkey = bpy.context.object
+    monkey = added("monkey")
     result = click()
     sound(result)
     assert result["ma_sampling"] != "VERTICES"
@@ -113,8 +92,7 @@ def test_suzanne_as_she_is():
 
 
 def test_text_with_a_depth():
-    bpy.ops.object.text_add()
-    text = bpy.context.object
+    text = added("object.text")
     text.data.extrude = 0.1
     result = click()
     sound(result)
@@ -124,22 +102,11 @@ def test_text_with_a_depth():
     assert attribute(result.data, "ma_radius").max() < 0.1
 
 
-def test_flat_text_is_one_sentence():
-    bpy.ops.object.text_add()
-    refused("'Text': .*one plane; give them thickness")
-
-
 def test_curve_with_a_bevel():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    bpy.context.object.data.bevel_depth = 0.2
+    ring()
     result = click()
     sound(result)
     assert attribute(result.data, "ma_radius").max() == pytest.approx(0.2, rel=0.05)
-
-
-def test_curve_without_a_surface_is_one_sentence():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    refused("'B.zierCircle': Expected faces, found only lines; give the object a surface")
 
 
 def test_nurbs_surface():
@@ -148,8 +115,7 @@ def test_nurbs_surface():
 
 
 def test_metaballs_together():
-    bpy.ops.object.metaball_add(location=(0, 0, 0))
-    ball = bpy.context.object
+    ball = added("object.metaball", location=(0, 0, 0))
     other = ball.data.elements.new()
     other.co = (1.5, 0, 0)
     result = click()
@@ -166,9 +132,7 @@ def test_metaballs_together():
 
 
 def test_vertices_of_a_curve_when_they_are_asked_for():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    curve = bpy.context.object
-    curve.data.bevel_depth, curve.data.bevel_resolution = 0.2, 8
+    ring().data.bevel_resolution = 8
     result = click(sampling="VERTICES")
     assert result["ma_sampling"] == "VERTICES" and result["ma_points"] < 3_000
 
@@ -192,8 +156,7 @@ def test_spacing_is_a_share_of_the_diagonal():
 
 def thin_and_thick():
     """A closed ball that goes over into thin rods."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    source = bpy.context.object
+    source = added("ico_sphere", subdivisions=5)
     points = positions(source.data)
     points[:, 1:] *= 0.15 + 0.85 * np.exp(-((2.2 * points[:, :1]) ** 2))
     points[:, 0] *= 3.0
@@ -202,14 +165,8 @@ def thin_and_thick():
     return source
 
 
-def above(density):
-    """The percentage above epsilon that the sentence of a density says."""
-    return float(density.partition("below ")[2].split(", ")[1].split(" %")[0])
-
-
 def test_marked_edges_are_sharp():
-    bpy.ops.mesh.primitive_uv_sphere_add()
-    source = bpy.context.object
+    source = added("uv_sphere")
     plain = click(sampling="SURFACE", samples=2_000)["ma_density"]
     assert "with sharp edges" not in plain
     heights = positions(source.data)[:, 2]
@@ -258,18 +215,17 @@ def test_sliders_work_on_samples():
     assert (kept.samples, kept.smooth, kept.sampling.name) == (3_000, True, "SURFACE")
 
 
+def job_of_a_rod(**settings):
+    """A job that takes samples in several passes."""
+    core, shape = addon("core.settings"), read(thin_and_thick())
+    wanted = core.Settings(sampling=core.SamplingMode.ADAPTIVE, **settings)
+    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
+    return addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
+
+
 @pytest.mark.parametrize("delay", [0.1])
 def test_cancel_works_in_every_pass(delay):
-    source = thin_and_thick()
-    shape = addon("bridge.objects.read_object").read_object(
-        source, bpy.context.evaluated_depsgraph_get()
-    )
-    settings = addon("core.settings")
-    wanted = settings.Settings(
-        sampling=settings.SamplingMode.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
-    )
-    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
-    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
+    job = job_of_a_rod(samples=200_000, budget=1_000_000, epsilon=0.02)
     seen, end = [], time.monotonic() + delay
     while time.monotonic() < end:
         seen.append(job.fraction)
@@ -281,38 +237,16 @@ def test_cancel_works_in_every_pass(delay):
 
 
 def test_progress_is_one_bar_over_all_passes():
-    source = thin_and_thick()
-    shape = addon("bridge.objects.read_object").read_object(
-        source, bpy.context.evaluated_depsgraph_get()
-    )
-    settings = addon("core.settings")
-    wanted = settings.Settings(sampling=settings.SamplingMode.ADAPTIVE, samples=3_000)
-    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
-    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
-    seen = []
-    while not job.done:
-        seen.append((job.fraction, job.stage))
-        time.sleep(0.002)
-    fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
-    assert len({stage for _, stage in seen}) > 3
-    assert job.outcomes()[0].value.chosen.sampling is settings.SamplingMode.ADAPTIVE
+    job = job_of_a_rod(samples=3_000)
+    assert len({stage for stage, _ in watched(job)}) > 3
+    assert job.outcomes()[0].value.chosen.sampling.name == "ADAPTIVE"
 
 
 # --- messy meshes
 
 
-def test_nothing_is_written_on_the_source():
-    bpy.ops.mesh.primitive_cube_add()
-    source = bpy.context.object
-    before = ([a.name for a in source.data.attributes], dict(source.items()))
-    click(sampling="SURFACE", samples=1_000)
-    assert ([a.name for a in source.data.attributes], dict(source.items())) == before
-
-
 def test_scale_is_applied_before_sampling():
-    bpy.ops.mesh.primitive_cube_add()
-    source = bpy.context.object
+    source = added("cube")
     source.scale = (3, 1, 1)
     result = click(sampling="SURFACE", samples=4_000)
     where = positions(result.data)
@@ -321,8 +255,8 @@ def test_scale_is_applied_before_sampling():
 
 
 def test_reports_of_a_click(capfd):
-    bpy.ops.mesh.primitive_cube_add()
-    click(sampling="SURFACE", samples=1_000)
+    source = added("cube")
+    result = click(sampling="SURFACE", samples=1_000)
     infos = [text for kind, text in reports(capfd) if kind == "Info"]
-    assert len(infos) == 1 and len(medial_objects()) == 1
+    assert len(infos) == 1 and set(bpy.data.objects) == {source, result}
     assert infos[0].startswith("Done: 1 piece, ")

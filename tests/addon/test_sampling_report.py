@@ -4,18 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    attribute,
-    contents,
-    ellipsoid,
-    link,
-    positions,
-    refuse,
-    select,
-    suzanne,
-    triangles_of,
-)
+from installed import addon
+from measure import attribute, contents, positions, triangles_of
+from scene import added, ellipsoid, link, refuse, select
 
 REPORT = "medial_axis_sampling_report"
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
@@ -30,8 +21,7 @@ def report(source, **settings):
 
 
 def cylinder():
-    bpy.ops.mesh.primitive_cylinder_add()
-    return bpy.context.object
+    return added("cylinder")
 
 
 def test_report_is_the_samples_with_their_attributes():
@@ -138,22 +128,6 @@ def test_epsilon_on_the_source():
     bpy.ops.object.medial_axis_sampling_report(target="SOURCE", **EVEN | {"samples": 300})
     assert (attribute(source.data, "ma_epsilon") != values).any()
     assert [a.name for a in source.data.attributes].count("ma_epsilon") == 1
-
-
-@pytest.mark.parametrize(
-    ("make", "sentence"),
-    [
-        (lambda: suzanne(levels=1), "as many vertices with modifiers as without"),
-        (
-            lambda: bpy.ops.object.metaball_add() and bpy.context.object,
-            "found an object of type Meta",
-        ),
-    ],
-    ids=["modifier", "metaball"],
-)
-def test_source_that_cannot_take_it_is_one_sentence(make, sentence):
-    select(make())
-    refuse(sentence, operator=REPORT, target="SOURCE", **EVEN)
 
 
 # --- what is said

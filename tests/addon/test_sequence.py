@@ -6,7 +6,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import addon, ellipsoid, link, positions, reports, select, torus
+from installed import addon
+from measure import contents, positions, reports
+from scene import ellipsoid, link, refuse, select, torus
 
 
 @pytest.fixture
@@ -84,14 +86,13 @@ def test_attributes_come_from_the_file(growing, tmp_path):
 def test_again_keeps_files_and_replaces_objects(growing, tmp_path, capfd):
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
     reports(capfd)
-    counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
+    before = [*map(len, contents())]
     analyses = addon("core.machine.cache").CACHE.analyses
     select(growing)
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
     assert ("Info", "4 of 4 frames are there, 4 were before") in reports(capfd)
     assert addon("core.machine.cache").CACHE.analyses == analyses
-    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
-    assert len(bpy.data.collections) == 1
+    assert [*map(len, contents())] == before and len(bpy.data.collections) == 1
 
 
 def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, capfd):
@@ -120,14 +121,12 @@ def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):
 
 
 def test_refused(growing, tmp_path):
-    with pytest.raises(RuntimeError, match="Expected a saved file"):
-        bpy.ops.object.medial_axis_sequence(directory="//axes")
-    with pytest.raises(RuntimeError, match="Expected frames such as"):
-        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="x")
+    refuse("Expected a saved file", "medial_axis_sequence", directory="//axes")
+    chosen = {"operator": "medial_axis_sequence", "directory": str(tmp_path)}
+    refuse("Expected frames such as", **chosen, frames="x")
     flat = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 3, 2)])
     select(flat)
-    with pytest.raises(RuntimeError, match="Expected results of 4 frames, found none"):
-        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    refuse("Expected results of 4 frames, found none", **chosen)
     assert list(tmp_path.iterdir()) == [] and len(bpy.data.collections) == 0
     select()
     assert not bpy.ops.object.medial_axis_sequence.poll()
@@ -180,8 +179,8 @@ def test_nothing_is_left_of_files_that_are_broken(growing, tmp_path, broken):
         else:
             arrays["face_vertices"] = arrays["face_vertices"] + 10**6
         np.savez(path, **arrays)
-    counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
     files = [{"name": f"Body_{frame:04d}.npz"} for frame in (1, 2)]
+    counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
     with pytest.raises(RuntimeError, match="Expected"):
         bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
     now = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
@@ -251,10 +250,8 @@ def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_pa
     (tmp_path / "Arm_0002.json").write_text(
         '{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}'
     )
-    counts = [len(data) for data in (bpy.data.objects, bpy.data.curves, bpy.data.collections)]
-    with pytest.raises(RuntimeError, match="Expected nodes and parts of a skeleton"):
-        bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
-    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.curves, bpy.data.collections)]
+    chosen = {"operator": "import_scene.medial_axis_sequence", "directory": str(tmp_path)}
+    refuse("Expected nodes and parts of a skeleton", **chosen, files=files)
 
 
 def test_names_of_files():
@@ -264,13 +261,3 @@ def test_names_of_files():
     assert found == {"a": [2, 10], "b": [1], "c": [5], "d": [-3], "e": [7]}
     with pytest.raises(addon("core.errors").InvalidInputError, match="'axis.npz'"):
         by_frame([Path("axis.npz")])
-
-
-def test_no_leftovers(growing, tmp_path):
-    """Undoing or deleting the collection takes everything along that was made."""
-    bpy.ops.ed.undo_push(message="before")
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
-    bpy.ops.ed.undo_push(message="after")
-    bpy.ops.ed.undo()
-    assert [thing.name for thing in bpy.data.objects] == ["Body"]
-    assert len(bpy.data.collections) == 0

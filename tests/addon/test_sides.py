@@ -6,34 +6,14 @@ import collections
 import bpy
 import numpy as np
 import pytest
-from scene import (
-    addon,
-    analyses,
-    attribute,
-    compute,
-    direct,
-    ellipsoid,
-    on_ellipsoid,
-    opened,
-    positions,
-    reports,
-    result_of,
-    scan,
-    select,
-    triangles_of,
-)
+from installed import addon
+from measure import analyses, attribute, direct, generators, positions, read, reports, result_of
+from scene import compute, ellipsoid, opened, scan, select
+from support.clouds import on_ellipsoid
 
 
 def warnings(capfd):
     return [text for kind, text in reports(capfd) if kind == "Warning"]
-
-
-def facets(result):
-    """The generators of all facets."""
-    mesh = result.data
-    if "ma_generators" in mesh.attributes:
-        return attribute(mesh, "ma_generators")
-    return np.column_stack([attribute(mesh, f"ma_generator_{end}") for end in "ab"])
 
 
 def boundary(mesh):
@@ -47,12 +27,15 @@ def oriented(name="Oriented", flip=1.0):
     return scan(name, points, flip * normals)
 
 
-def open_oriented():
-    """An open mesh whose points have normals."""
-    source = opened()
+def with_normals(source):
+    """An ellipsoid whose points have normals."""
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
     addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
     return source
+
+
+def open_oriented():
+    return with_normals(opened())
 
 
 @pytest.mark.parametrize(
@@ -84,21 +67,18 @@ def test_automatic_says_which_and_why(make, sides, sentence):
     module = addon("core.machine.native").load()
     expected = module.MedialAnalysis(
         positions(source.data),
-        triangles_of(source.data) if sides == "SURFACE" else None,
+        read(source).triangles if sides == "SURFACE" else None,
         normals=addon("bridge.mesh.attributes").read_normals(source.data.attributes)
         if sides == "NORMALS"
         else None,
         sides=getattr(module.SidesFrom, sides),
     ).extract(side=module.Side.INNER)
-    np.testing.assert_array_equal(facets(result), expected.generators)
+    np.testing.assert_array_equal(generators(result.data), expected.generators)
 
 
 @pytest.mark.parametrize("sides", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"])
 def test_chosen_source_is_used_although_all_are_there(sides):
-    source = ellipsoid()
-    normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
-    addon("bridge.mesh.attributes").add_normals(source.data.attributes, normals)
-    result = compute(sides=sides)
+    result = compute(with_normals(ellipsoid()), sides=sides)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
     samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
     assert samples.analysis.sides_from.name == sides
@@ -123,8 +103,7 @@ def test_normals_turn_with_the_object(scale, capfd):
     source.scale = scale
     source.rotation_euler = (0.4, -0.8, 1.3)
     select(source)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    shape = addon("bridge.objects.read_object").read_object(source, depsgraph)
+    shape = read(source)
     rest = addon("bridge.objects.read_object").split_transform(np.array(source.matrix_world))[1]
     unit = np.linalg.solve(rest, shape.points.T).T
     unmoved = unit / np.square([1.0, 0.7, 0.5])
@@ -156,7 +135,7 @@ def test_sliders_keep_what_told_inside_from_outside():
         criteria=module.Criteria.ANGLE,
     )
     # the faces of a sheet all turn the same way, so some have their samples exchanged
-    np.testing.assert_array_equal(np.sort(facets(result), axis=1), expected.generators)
+    np.testing.assert_array_equal(np.sort(generators(result.data), axis=1), expected.generators)
 
 
 def test_edit_mode_keeps_the_normals():

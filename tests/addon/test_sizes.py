@@ -6,7 +6,9 @@ import math
 import bpy
 import numpy as np
 import pytest
-from scene import addon, contents, ellipsoid, result_of, select, torus
+from installed import addon
+from measure import contents, positions, result_of
+from scene import ellipsoid, select, torus
 
 FEW = {"sampling": "SURFACE", "samples": 1_000}
 # The operators of the add-on that compute from a mesh, with options that keep them quick.
@@ -62,6 +64,8 @@ OTHERS = {
     "object.medial_axis_to_curve": {},
     "import_mesh.points_xyz": {"filepath": "scan.xyz"},
     "import_mesh.points_off": {"filepath": "solid.off"},
+    "object.medial_axis_thickness on the source": {**FEW},
+    "object.medial_axis_sequence": {"directory": "", "frames": "1-2"},
 }
 FILES = {
     "scan.xyz": "0 0 0\n1 0 0\n0 1 0\n",
@@ -71,15 +75,17 @@ FILES = {
 
 def everything():
     """Names and counts of all that an operator may have made, or changed on its source."""
-    more = [
-        sorted(thing.name for thing in kind)
-        for kind in (bpy.data.collections, bpy.data.curves, bpy.data.armatures)
-    ]
     own = {
         thing.name: (len(thing.modifiers), len(thing.vertex_groups), thing.parent is None)
         for thing in bpy.data.objects
     }
-    return [*contents(), *more, own]
+    attributes = {mesh.name: sorted(mesh.attributes.keys()) for mesh in bpy.data.meshes}
+    return [*contents(), own, attributes]
+
+
+def own_of(source):
+    """The places, attributes and properties of a source, which only thickness changes."""
+    return positions(source.data).tobytes(), source.data.attributes.keys(), dict(source.items())
 
 
 @pytest.mark.parametrize("name", [*(f"object.{name}" for name in OPERATORS), *OTHERS])
@@ -88,22 +94,25 @@ def test_one_step_of_undo(name, tmp_path):
     for file, text in FILES.items():
         (tmp_path / file).write_text(text)
     options = dict(OTHERS[name] if name in OTHERS else OPERATORS[name.partition(".")[2]])
-    if "filepath" in options:
-        options["filepath"] = str(tmp_path / options["filepath"])
+    for path in {"filepath", "directory"} & set(options):
+        options[path] = str(tmp_path / options[path])
     if name.endswith("to_curve"):
         source = torus()
         bpy.ops.object.medial_axis(form="CURVE", **FEW)
     else:
-        source = ellipsoid(segments=2)
+        source = ellipsoid(segments=5 if name.endswith("on the source") else 2)
         if OTHERS.get(name) is not FEW:
             bpy.ops.object.medial_axis(form="CLEAN", side="INNER", **FEW)
     select(source)
     bpy.ops.ed.undo_push(message="Scene is set")
-    before = everything()
+    before, own = everything(), own_of(source)
     group, _, operator = name.partition(" ")[0].partition(".")
     done = getattr(getattr(bpy.ops, group), operator)("EXEC_DEFAULT", True, **options)
     made = everything()
     assert done == {"FINISHED"} and made != before
+    assert own_of(source) == own or "thickness" in name
+    if name.endswith("on the source"):
+        assert made[0] == before[0] and "ma_thickness" in source.data.attributes
     bpy.ops.ed.undo()
     assert everything() == before
     bpy.ops.ed.redo()

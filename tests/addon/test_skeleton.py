@@ -6,20 +6,10 @@ import math
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Euler, Matrix
-from scene import (
-    addon,
-    attribute,
-    compute,
-    contents,
-    link,
-    positions,
-    refuse,
-    result_of,
-    select,
-    torus,
-    world_positions,
-)
+from measure import attribute, contents, evaluated, positions, result_of, world_positions
+from scene import added, cells, compute, link, refuse, ring, select, torus
 from support.meshes import capsule, join
 
 
@@ -33,29 +23,9 @@ def armature_of(source):
 
 def cross(name="Cross"):
     """A voxel cross with four arms in the plane of X and Z, smoothed: symmetric in X."""
-    cubes = {(0, 0, z) for z in range(-3, 3)} | {(x, 0, 0) for x in range(-3, 4)}
-    vertices, faces, row = [], [], {}
-    corners = {
-        (1, 0, 0): [(1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)],
-        (-1, 0, 0): [(-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1)],
-        (0, 1, 0): [(-1, 1, -1), (-1, 1, 1), (1, 1, 1), (1, 1, -1)],
-        (0, -1, 0): [(-1, -1, -1), (1, -1, -1), (1, -1, 1), (-1, -1, 1)],
-        (0, 0, 1): [(-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)],
-        (0, 0, -1): [(-1, -1, -1), (-1, 1, -1), (1, 1, -1), (1, -1, -1)],
-    }
-    for cube in sorted(cubes):
-        for side, square in corners.items():
-            if tuple(np.add(cube, side)) in cubes:
-                continue
-            face = []
-            for corner in square:
-                place = tuple((np.array(cube) + np.array(corner) / 2).tolist())
-                if place not in row:
-                    row[place] = len(vertices)
-                    vertices.append(place)
-                face.append(row[place])
-            faces.append(face)
-    made = link(name, vertices, faces)
+    made = cells(*((0, 0, z) for z in range(-3, 3)), *((x, 0, 0) for x in range(-3, 4) if x))
+    made.name = name
+    made.data.transform(Matrix.Translation((-0.5, -0.5, -0.5)))
     made.modifiers.new("Round", "SUBSURF").levels = 3
     bpy.context.view_layer.update()
     bpy.ops.object.modifier_apply(modifier="Round")
@@ -129,8 +99,7 @@ def test_skeleton_lies_where_the_source_is(scale):
 
 
 def test_a_skeleton_is_seen_in_renders_as_tubes_of_a_fifth_of_the_balls():
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.1, depth=4.0)
-    source = bpy.context.object
+    source = added("cylinder", vertices=64, radius=0.1, depth=4.0)
     assert bpy.ops.object.medial_axis_skeleton(sampling="SURFACE") == {"FINISHED"}
     thing = skeleton_of(source)
     mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
@@ -150,8 +119,7 @@ def test_running_again_updates_the_same_curve_and_keeps_its_bevel():
 
 @pytest.mark.parametrize(("fill", "radius"), [("OUTSIDE", 0.5), ("INSIDE", 0.4)])
 def test_a_hollow_pipe_has_one_line_when_it_is_filled(fill, radius):
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.5, depth=6.0, end_fill_type="NOTHING")
-    source = bpy.context.object
+    source = added("cylinder", vertices=64, radius=0.5, depth=6.0, end_fill_type="NOTHING")
     source.modifiers.new("Wall", "SOLIDIFY").thickness = 0.1
     extract(fill=fill, sampling="SURFACE")
     thing = skeleton_of(source)
@@ -239,12 +207,6 @@ def test_parts_on_the_faces_of_the_source():
         assert (part[far] == number).all()
 
 
-def test_parts_are_refused_where_there_are_no_faces():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    bpy.context.object.data.bevel_depth = 0.2
-    refuse("turn Parts off", operator="medial_axis_skeleton", parts=True)
-
-
 def test_armature_of_few_connected_bones():
     source = cross()
     make_armature(bind="NONE")
@@ -279,9 +241,7 @@ def test_bound_source_follows_its_bones(bind):
     bone = thing.pose.bones[name]
     bone.rotation_mode = "XYZ"
     bone.rotation_euler = (math.radians(60), 0, 0)
-    bpy.context.view_layer.update()
-    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    moved = np.linalg.norm(positions(mesh) - positions(source.data), axis=1)
+    moved = np.linalg.norm(places(source) - positions(source.data), axis=1)
     assert moved.max() > 0.5 and (moved[positions(source.data)[:, 0] < -1.0] < 0.02).all()
 
 
@@ -304,8 +264,7 @@ def test_refusals_leave_nothing_behind():
     bpy.ops.object.mode_set(mode="EDIT")
     refuse("leave that mode", operator="medial_axis_armature")
     bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.ops.curve.primitive_bezier_circle_add()
-    bpy.context.object.data.bevel_depth = 0.2
+    ring()
     refuse("choose Weights None", operator="medial_axis_armature")
 
 
@@ -415,9 +374,7 @@ def posed_cross():
 
 
 def places(thing):
-    bpy.context.view_layer.update()
-    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return positions(evaluated.data)
+    return positions(evaluated(thing))
 
 
 def heads(thing):
@@ -495,8 +452,7 @@ def test_painted_weights_are_replaced_only_when_asked_to():
 @pytest.mark.parametrize("bind", ["AXIS", "AUTOMATIC"])
 def test_a_parent_of_the_artist_stays(bind):
     source = cross()
-    bpy.ops.object.empty_add(location=(1, 2, 3))
-    rig = bpy.context.object
+    rig = added("object.empty", location=(1, 2, 3))
     source.parent = rig
     bpy.context.view_layer.update()
     before = world_positions(source)

@@ -4,14 +4,13 @@
 import bmesh
 import bpy
 import pytest
-from scene import refuse, select
+from scene import added, refuse, select
 
 WALL = 0.2
 
 
 def grid():
-    bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6, size=2)
-    return bpy.context.object
+    return added("grid", x_subdivisions=6, y_subdivisions=6, size=2)
 
 
 def solid(source, **options):

@@ -4,19 +4,16 @@
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, ellipsoid, result_of, select, torus
+from installed import addon
+from measure import result_of
+from scene import added, compute, ellipsoid, select, torus
 
 KINDS = {
-    "curve": lambda: bpy.ops.curve.primitive_bezier_circle_add(),
-    "surface": lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(),
-    "text": lambda: bpy.ops.object.text_add(),
-    "metaball": lambda: two_metaballs(),
+    "curve": "curve.bezier_circle",
+    "surface": "surface.nurbs_surface_torus",
+    "text": "object.text",
+    "metaball": "object.metaball",
 }
-
-
-def two_metaballs():
-    bpy.ops.object.metaball_add()
-    bpy.context.object.data.elements.new().co.x = 1.5
 
 
 def has_changed(output):
@@ -46,31 +43,25 @@ def move_a_vertex(source):
     source.data.update()
 
 
-def flip(source):
-    source.data.flip_normals()
-
-
 def add_modifier(source):
     source.modifiers.new("Wave", "DISPLACE").strength = 0.01
 
 
-def scale(source):
-    source.scale = (2, 1, 1)
-
-
-def scale_evenly(source):
-    source.scale = (1.01, 1.01, 1.01)
-
-
-CHANGES = (move_a_vertex, flip, add_modifier, scale, scale_evenly)
+CHANGES = {
+    "moved vertex": move_a_vertex,
+    "flipped": lambda source: source.data.flip_normals(),
+    "modifier": add_modifier,
+    "scale": lambda source: setattr(source, "scale", (2, 1, 1)),
+    "even scale": lambda source: setattr(source, "scale", (1.01, 1.01, 1.01)),
+}
 
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_a_changed_source(change):
     source, result = computed()
-    change(source)
+    CHANGES[change](source)
     assert has_changed(result)
-    if change is not flip:  # an axis of the inside needs faces that look outward
+    if change != "flipped":  # an axis of the inside needs faces that look outward
         compute(source)
         assert result_of(source) == result and not has_changed(result)
 
@@ -100,8 +91,9 @@ def test_edit_mode_and_a_hidden_source_tell_nothing():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_sources_of_other_types(kind):
-    KINDS[kind]()
-    source = bpy.context.object
+    source = added(KINDS[kind])
+    if kind == "metaball":
+        source.data.elements.new().co.x = 1.5
     if kind in ("curve", "text"):
         source.data.bevel_depth = 0.1
         source.data.extrude = 0.1
@@ -221,8 +213,7 @@ def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for()
 def test_what_automatic_turns_on_by_itself_is_no_change_of_settings():
     """Between walls that nearly touch, samples lie in pairs on flat faces, whatever was asked."""
     properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=1.0, depth=0.01)
-    source = bpy.context.object
+    source = added("cylinder", vertices=64, radius=1.0, depth=0.01)
     source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
     result = result_of(source)

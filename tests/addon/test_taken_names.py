@@ -3,7 +3,9 @@
 
 import bpy
 import pytest
-from scene import addon, attribute, compute, contents, ellipsoid, refuse, result_of, select, torus
+from installed import addon
+from measure import attribute, contents, result_of
+from scene import compute, ellipsoid, select, torus
 
 
 def test_a_vertex_group_with_the_name_of_an_attribute_is_named():
@@ -61,14 +63,3 @@ def test_crafted_properties_do_not_stop_the_sliders(name, value):
     settings = addon("bridge.axis.axis_object").settings_of(result)
     assert 0 < settings.theta < 1.6
     compute(source)
-
-
-def test_a_result_in_edit_mode_is_refused_as_before():
-    source = ellipsoid()
-    compute()
-    bpy.context.view_layer.objects.active = result_of(source)
-    bpy.ops.object.mode_set(mode="EDIT")
-    try:
-        refuse("leave that mode")
-    finally:
-        bpy.ops.object.mode_set(mode="OBJECT")

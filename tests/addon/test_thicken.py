@@ -5,40 +5,20 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Matrix, Vector
-from scene import addon, refuse
+from measure import evaluated, positions
+from scene import plate, refuse
 
 LIMIT = 0.1
 
 
-def plate(thickness=0.02, cuts=0):
-    """A plate of 2 by 2, and its object."""
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    thing = bpy.context.object
-    thing.data.transform(Matrix.Diagonal((1.0, 1.0, thickness / 2, 1.0)))
-    if cuts:
-        mesh = bmesh.new()
-        mesh.from_mesh(thing.data)
-        bmesh.ops.subdivide_edges(mesh, edges=mesh.edges, cuts=cuts, use_grid_fill=True)
-        mesh.to_mesh(thing.data)
-        mesh.free()
-    return thing
-
-
-def positions(thing):
-    """(v, 3) the evaluated vertices."""
-    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    values = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", values)
-    return values.reshape(-1, 3)
-
-
 def test_a_plate_gets_the_limit_and_keeps_its_outline():
-    thing = plate()
+    thing = plate(0.02)
     mesh, uvs = thing.data, [tuple(uv.uv) for uv in thing.data.uv_layers[0].data]
-    own = np.array([vertex.co[:] for vertex in mesh.vertices])
+    own = positions(mesh)
     assert bpy.ops.object.medial_axis_thicken(limit=LIMIT) == {"FINISHED"}
-    moved = positions(thing)
+    moved = positions(evaluated(thing))
     np.testing.assert_allclose(np.abs(moved[:, 2]), LIMIT / 2, rtol=2e-4)
     np.testing.assert_allclose(moved[:, :2], own[:, :2], atol=1e-6)
     assert thing.data == mesh and [tuple(uv.uv) for uv in mesh.uv_layers[0].data] == uvs
@@ -47,7 +27,12 @@ def test_a_plate_gets_the_limit_and_keeps_its_outline():
 
 
 def test_it_is_measured_again_and_not_outdated():
-    thing = plate(cuts=7)
+    thing = plate(0.02)
+    mesh = bmesh.new()
+    mesh.from_mesh(thing.data)
+    bmesh.ops.subdivide_edges(mesh, edges=mesh.edges, cuts=7, use_grid_fill=True)
+    mesh.to_mesh(thing.data)
+    mesh.free()
     bpy.ops.object.medial_axis_thickness(limit=LIMIT)
     of = addon("bridge.thickness.thickness_object")
     assert of.carrier_of(thing)["ma_thickness_share"] == pytest.approx(1.0)
@@ -61,46 +46,46 @@ def test_it_is_measured_again_and_not_outdated():
 
 
 def test_a_second_click_adds_to_the_first_and_the_factor_takes_it_back():
-    thing = plate()
+    thing = plate(0.02)
     for limit in (LIMIT, 2 * LIMIT):
         bpy.ops.object.medial_axis_thicken(limit=limit)
-        np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), limit / 2, rtol=2e-4)
+        np.testing.assert_allclose(np.abs(positions(evaluated(thing))[:, 2]), limit / 2, rtol=2e-4)
     assert len(thing.modifiers) == 1
     addon("bridge.nodes.inputs").set_inputs(thing.modifiers[0], {"Factor": 0.0})
     bpy.context.view_layer.update()
-    np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), 0.01, rtol=1e-5)
+    np.testing.assert_allclose(np.abs(positions(evaluated(thing))[:, 2]), 0.01, rtol=1e-5)
 
 
 def test_scale_rotation_and_mirror():
-    thing = plate()
+    thing = plate(0.02)
     thing.matrix_world = Matrix.LocRotScale(
         Vector((3.0, 1.0, 2.0)), Matrix.Rotation(0.7, 3, "X"), Vector((2.0, -1.0, 3.0))
     )
     bpy.context.view_layer.update()
     bpy.ops.object.medial_axis_thicken(limit=0.3)
-    np.testing.assert_allclose(3.0 * np.abs(positions(thing)[:, 2]), 0.15, rtol=2e-4)
-    np.testing.assert_allclose(np.abs(positions(thing)[:, :2]), 1.0, rtol=1e-5)
+    np.testing.assert_allclose(3.0 * np.abs(positions(evaluated(thing))[:, 2]), 0.15, rtol=2e-4)
+    np.testing.assert_allclose(np.abs(positions(evaluated(thing))[:, :2]), 1.0, rtol=1e-5)
 
 
 def test_only_selected_faces_move():
-    thing = plate()
+    thing = plate(0.02)
     for face in thing.data.polygons:
         face.select = face.normal.z > 0.5
     bpy.ops.object.medial_axis_thicken(limit=LIMIT, moving="SELECTED")
-    height = positions(thing)[:, 2]
+    height = positions(evaluated(thing))[:, 2]
     np.testing.assert_allclose(height.min(), -0.01, rtol=1e-5)
     np.testing.assert_allclose(height.max(), LIMIT - 0.01, rtol=2e-4)
 
 
 def test_a_vertex_group_tells_where_walls_moved():
-    thing = plate()
+    thing = plate(0.02)
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
     group = thing.vertex_groups["Medial Axis Thicken"]
     assert [round(group.weight(v), 6) for v in range(8)] == [1.0] * 8
 
 
 def test_a_group_of_the_artist_that_has_our_name_stays():
-    thing = plate()
+    thing = plate(0.02)
     thing.vertex_groups.new(name="Medial Axis Thicken").add([0], 0.25, "REPLACE")
     for limit in (LIMIT, 2 * LIMIT):
         bpy.ops.object.medial_axis_thicken(limit=limit)
@@ -110,7 +95,7 @@ def test_a_group_of_the_artist_that_has_our_name_stays():
 
 def ramp():
     """A plate of six faces that gets thicker along its length, from 0.02 to 0.1, with weights from 0.25 to 0.75."""
-    thing = plate()
+    thing = plate(0.02)
     for vertex in thing.data.vertices:
         vertex.co.z *= 3.0 + 2.0 * vertex.co.x
     group = thing.vertex_groups.new(name="Along")
@@ -128,7 +113,7 @@ def test_faces_that_are_thin_in_part_are_subdivided_when_asked():
     bpy.ops.object.medial_axis_thicken(limit=0.05, subdivide=True, samples=3000)
     assert thing.data == mesh and 300 < len(mesh.polygons) < 10_000
     assert [modifier.name for modifier in thing.modifiers] == ["Medial Axis Thicken"]
-    moved, own = positions(thing), np.array([vertex.co[:] for vertex in mesh.vertices])
+    moved, own = positions(evaluated(thing)), positions(mesh)
     np.testing.assert_allclose(np.abs(own[:, 2]), 0.01 * (3.0 + 2.0 * own[:, 0]), rtol=1e-5)
     thickness = 2.0 * np.abs(moved[:, 2])
     # A place on the rim has the thickness of the wall beside it, which is thicker by the taper of a piece.
@@ -160,17 +145,17 @@ def test_selected_faces_of_a_subdivision():
     for face in thing.data.polygons:
         face.select = face.normal.z > 0.5
     bpy.ops.object.medial_axis_thicken(limit=0.05, subdivide=True, samples=3000, moving="SELECTED")
-    moved, own = positions(thing), np.array([vertex.co[:] for vertex in thing.data.vertices])
+    moved, own = positions(evaluated(thing)), positions(thing.data)
     below = own[:, 2] < 0.0
     np.testing.assert_allclose(moved[below], own[below], atol=1e-7)
     assert moved[:, 2].max() > own[:, 2].max() * 0.999 and (moved[~below] != own[~below]).any()
 
 
 def test_a_mesh_that_needs_no_subdivision_keeps_its_faces():
-    thing = plate()
+    thing = plate(0.02)
     bpy.ops.object.medial_axis_thicken(limit=LIMIT, subdivide=True)
     assert len(thing.data.polygons) == 6
-    np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), LIMIT / 2, rtol=2e-4)
+    np.testing.assert_allclose(np.abs(positions(evaluated(thing))[:, 2]), LIMIT / 2, rtol=2e-4)
 
 
 def test_nothing_is_subdivided_where_a_name_is_taken():
@@ -181,31 +166,6 @@ def test_nothing_is_subdivided_where_a_name_is_taken():
     assert len(thing.data.polygons) == 6 and not thing.modifiers
 
 
-def open_mesh():
-    bpy.ops.mesh.primitive_plane_add()
-
-
-def subdivided():
-    plate().modifiers.new("Subdivision", "SUBSURF")
-
-
-@pytest.mark.parametrize(
-    "make, limit, words",
-    [
-        (plate, 0.0, "Expected a limit above 0"),
-        (subdivided, LIMIT, "Expected modifiers that keep the vertices"),
-        (open_mesh, LIMIT, "Expected"),
-        (bpy.ops.curve.primitive_bezier_circle_add, LIMIT, "Expected a mesh of this file"),
-    ],
-)
-def test_what_cannot_be_thickened_is_told_and_left(make, limit, words):
-    make()
-    thing = bpy.context.object
-    before = len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)
-    refuse(words, "medial_axis_thicken", limit=limit)
-    assert (len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)) == before
-
-
 def test_a_thick_solid_stays_without_a_modifier():
     bpy.ops.mesh.primitive_cube_add()
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
@@ -213,7 +173,7 @@ def test_a_thick_solid_stays_without_a_modifier():
 
 
 def test_a_taken_name_is_told_and_nothing_is_left():
-    thing = plate()
+    thing = plate(0.02)
     thing.vertex_groups.new(name="ma_thicken")
     refuse("Expected the name 'ma_thicken' to be free", "medial_axis_thicken", limit=LIMIT)
     assert not thing.modifiers and [group.name for group in thing.vertex_groups] == ["ma_thicken"]

@@ -6,8 +6,10 @@ import math
 import bpy
 import numpy as np
 import pytest
+from installed import addon
 from mathutils import Euler, Matrix
-from scene import addon, attribute, compute, ellipsoid, result_of, world_positions
+from measure import attribute, generators, result_of, world_positions
+from scene import compute, ellipsoid
 
 ROTATION = Euler((0.4, -0.8, 1.3)).to_matrix().to_4x4()
 SHEAR = Matrix(((1, 0.7, 0, 0), (0, 1, 0.2, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
@@ -68,15 +70,10 @@ def applied_copy(source):
 
 def facets(result):
     """{generators: facet centre}; generators name a facet whatever the order is."""
-    mesh = result.data
-    if "ma_generators" in mesh.attributes:
-        pairs = attribute(mesh, "ma_generators")
-    else:
-        pairs = np.column_stack([attribute(mesh, f"ma_generator_{end}") for end in "ab"])
-    where = world_positions(result)
+    where, mesh = world_positions(result), result.data
     return {
         tuple(pair): where[list(polygon.vertices)].mean(axis=0)
-        for pair, polygon in zip(pairs, mesh.polygons, strict=True)
+        for pair, polygon in zip(generators(mesh), mesh.polygons, strict=True)
     }
 
 

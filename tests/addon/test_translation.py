@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The user interface in German: entries are valid, and sentences find theirs; texts without an entry stay English."""
 
-from types import SimpleNamespace
-
 import bpy
 import pytest
-from scene import MODULE, addon, ellipsoid, link, select
-from test_rows import seen
+from installed import MODULE, addon
+from scene import ellipsoid, link, select
+from test_rows import Layout, seen
 
 
 def entries():
@@ -145,16 +144,10 @@ def test_panels_keep_english_and_show_german(german):
     bpy.ops.object.medial_axis(sampling="VERTICES")
     result = bpy.context.object
     assert result["ma_inside"] == "Inside from Surface: the faces are closed"
-    lines = []
-
-    class Column:
-        def label(self, text="", icon="NONE", translate=True):
-            lines.append(text)
-
-    layout = SimpleNamespace(column=lambda align: Column())
+    layout = Layout()
     context = seen(width=2000)
     addon("ui.base.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
-    assert lines == ["Innen nach Oberfläche: die Flächen sind geschlossen"]
+    assert layout.rows == [["Innen nach Oberfläche: die Flächen sind geschlossen"]]
 
 
 def test_translations_leave_with_the_addon(german):

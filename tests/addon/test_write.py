@@ -6,7 +6,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, compute, ellipsoid, positions
+from installed import addon
+from measure import attribute, positions
+from scene import compute, ellipsoid
 
 
 def honeycomb(rows, columns):

@@ -56,27 +56,10 @@ def write_result(
     between_steps: bool = False,
     shown: ShownAxis | None = None,
 ) -> bpy.types.Object:
-    """Make the result of a source, or update the existing one; all or nothing.
+    """Make the result of a source, or update the existing one.
 
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    computation : Computation
-    frame : (4, 4) float64
-        Where the axis lies in the world; rotation and translation only.
-    look : Look
-    product : Product
-        Of the whole source, or of one of its parts.
-    between_steps : bool
-        As in `replace_mesh`.
-    shown : ShownAxis, optional
-        What the look leaves of the axis, where a thread has computed it.
-
-    Raises
-    ------
-    InvalidInputError
-        The result cannot be changed now, or Blender cannot hold it.
+    `product` is that of the whole source, or of one of its parts. `between_steps` is as in `replace_mesh`, and `shown`
+    is what the look leaves of the axis, where a thread has computed it.
     """
     box = box_of(computation.chosen.samples.points)
     shown = shown or shown_axis(computation.axis, box, look)

@@ -26,19 +26,9 @@ _NOT_COARSE = (stored.SECONDS, stored.of_option("crisp"))
 
 @dataclass(frozen=True)
 class LiveSource:
-    """The source of a result as it was at one moment.
+    """The source of a result as it was at one moment: its shape, and its matrix.
 
-    Parameters
-    ----------
-    name : str
-        Of the result.
-    shape : Shape
-    world : (4, 4) matrix
-        Of the source.
-    state : tuple or None
-        The shape and the scale, as in `source_state`.
-    look : Look
-        Of the result.
+    `name` and `look` are those of the result; `state` is the shape and the scale, as in `source_state`.
     """
 
     name: str

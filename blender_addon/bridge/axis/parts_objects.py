@@ -14,7 +14,7 @@ from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
 from ..mesh import stored
-from ..mesh.attributes import PART, RADIUS, Attribute
+from ..mesh.attributes import PART, RADIUS, Attribute, read_attribute
 from ..mesh.colours import remember_colours
 from ..mesh.mesh_arrays import select_faces, selected_faces
 from ..mesh.write_mesh import new_mesh
@@ -36,14 +36,8 @@ def part_of_active_face(thing: bpy.types.Object) -> int:
 
 
 def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
-    """Select the faces of a part of an axis in object mode; returns how many there are.
-
-    Parameters
-    ----------
-    thing : Object
-    number : int
-    extend : bool
-        What is selected stays so.
+    """Select the faces of a part of an axis in object mode, with `extend` besides what is selected; returns how many
+    there are.
     """
     mesh = thing.data
     wanted = _parts(mesh) == number
@@ -54,11 +48,8 @@ def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
 
 
 def _parts(mesh: bpy.types.Mesh) -> Ints:
-    part = np.full(len(mesh.polygons), -1, np.int32)
-    found = mesh.attributes.get(PART.name)
-    if found is not None and (found.domain, found.data_type) == ("FACE", "INT"):
-        found.data.foreach_get("value", part)
-    return part
+    part = read_attribute(mesh.attributes, PART.name, PART.type, PART.domain)
+    return np.full(len(mesh.polygons), -1, np.int32) if part is None else part
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,10 +69,7 @@ _TABLE: tuple[Attribute, ...] = (RADIUS, PART)
 def separate_parts(result: bpy.types.Object) -> bpy.types.Collection:
     """Make an object of each part of an axis, in a collection next to it; those that were made before are replaced.
 
-    Raises
-    ------
-    InvalidInputError
-        The axis has no parts, or more than Blender shows well as objects.
+    Raises InvalidInputError where the axis has no parts, or more than Blender shows well as objects.
     """
     axis = with_agreeing_facets(read_axis(result))
     sheets = [_sheet(axis, number) for number in range(axis.structure.parts)]

@@ -15,7 +15,7 @@ from ...core.axis.medial_axis import LevelValues, MedialAxis
 from ...core.axis.turning import with_facets_turned
 from ...core.errors import InvalidInputError
 from ..mesh import stored
-from ..mesh.attributes import Attribute, attributes, level_attributes
+from ..mesh.attributes import LEVEL_ATTRIBUTES, Attribute, attributes, read_attribute
 from ..mesh.mesh_arrays import read_corner_edges, read_edges, read_polygons, read_positions
 from ..objects.output_object import is_gone
 from .axis_object import is_result, result_of
@@ -33,10 +33,7 @@ def find_axis(thing: bpy.types.Object | None) -> bpy.types.Object | None:
 def read_axis(result: bpy.types.Object) -> MedialAxis:
     """Read a medial axis back from a mesh and its attributes, as it is now: an artist may have edited it.
 
-    Raises
-    ------
-    InvalidInputError
-        An attribute of the table is missing.
+    Raises InvalidInputError where an attribute of the table is missing.
     """
     with _readable_mesh(result) as mesh:
         offsets, corners = read_polygons(mesh)
@@ -92,7 +89,7 @@ def _level(
     """The level of a clean form or a curve; None for an axis as published."""
     if stored.BETTI not in result:
         return None
-    fields = _fields(mesh, level_attributes(), result.name)
+    fields = _fields(mesh, LEVEL_ATTRIBUTES, result.name)
     fields["limb"] = fields["limb"][alone]
     pieces, loops, cavities = result[stored.BETTI]
     return LevelValues(betti=(pieces, loops, cavities), **fields)
@@ -110,14 +107,10 @@ def _fields(mesh: bpy.types.Mesh, table: tuple[Attribute, ...], name: str) -> di
 
 
 def _values(mesh: bpy.types.Mesh, attribute: Attribute, name: str) -> NDArray:
-    found = mesh.attributes.get(attribute.name)
-    if found is None or (found.domain, found.data_type) != (attribute.domain, attribute.type):
+    values = read_attribute(mesh.attributes, attribute.name, attribute.type, attribute.domain)
+    if values is None:
         raise InvalidInputError(
             f"Expected the {attribute.domain.lower()} attribute '{attribute.name}' on '{name}', "
             "found none; compute the medial axis again"
         )
-    values = np.empty(len(found.data) * attribute.width, attribute.dtype)
-    found.data.foreach_get(attribute.key, values)
-    if attribute.dtype == np.float32:
-        values = values.astype(np.float64)
-    return values.reshape(-1, attribute.width) if attribute.width > 1 else values
+    return values.astype(np.float64) if attribute.dtype == np.float32 else values

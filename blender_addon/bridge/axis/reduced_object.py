@@ -28,21 +28,9 @@ def check_reduced_writable(result: bpy.types.Object) -> None:
 
 
 def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
-    """Make the small medial mesh of a result, or update the existing one; all or nothing.
+    """Make the small medial mesh of a result, or update the existing one.
 
-    Parameters
-    ----------
-    result : Object
-        The medial axis that was reduced; it is not changed.
-    axis : MedialAxis
-        In the frame of `result`.
-    vertices : int
-        The wanted number.
-
-    Raises
-    ------
-    InvalidInputError
-        The object cannot be changed now, or Blender cannot hold it.
+    `axis` is in the frame of the result, and `vertices` is the wanted number.
     """
     source = source_of(result) or result
     span = colours_of_radii(axis.radius)

@@ -12,20 +12,23 @@ from numpy.typing import NDArray
 
 from ...core.arrays import Floats
 from ...core.errors import InvalidInputError
+from ...core.machine.native import own_errors
 from ...core.samples.sampling_report import SamplingReport
 from ..mesh import stored
 from ..mesh.attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.evaluated_rows import keeps_rows
 from ..mesh.material import epsilon_material
+from ..mesh.step_weights import write_steps
 from ..mesh.write_mesh import new_mesh
 from ..objects.output_object import Product, place, remember
-from .feature_size import write_feature_size
 
 # A source with at least this many vertices for each sample shows a report well enough.
 _ENOUGH = 0.25
 _SCALE = 2.0  # where the colours end, in limits
-
+FEATURE_SIZE = "ma_feature_size"  # of the attribute and of the vertex group, for modifiers that ask where detail is
+# Weights of the group go from 1 at this share of the smallest sizes to 0 at the same share of the largest.
+_ENDS = 0.05
 
 REPORT = Product(" Sampling", (stored.EPSILON_SHARE, stored.SOURCE), material=epsilon_material)
 is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.check_writable
@@ -39,23 +42,7 @@ def has_report(thing: bpy.types.Object) -> bool:
 def write_report(
     source: bpy.types.Object, found: SamplingReport, frame: np.ndarray, colours: bool = True
 ) -> bpy.types.Object:
-    """Make the report of a source, or update the existing one; all or nothing.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : SamplingReport
-    frame : (4, 4) float64
-        Where the samples lie in the world; rotation and translation only.
-    colours : bool
-        Whether it has `ma_color`.
-
-    Raises
-    ------
-    InvalidInputError
-        The report cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the report of a source, or update the existing one; with `colours` it has `ma_color`."""
     build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
     of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
     report, is_new = REPORT.write_coloured(source, build, of, found.epsilon, 0.0, end)
@@ -117,10 +104,7 @@ def write_on_source(
     """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, colours, and the
     feature size with its vertex group.
 
-    Raises
-    ------
-    InvalidInputError
-        The source cannot take it, or its modifiers make other vertices.
+    Raises InvalidInputError where the source cannot take it, or its modifiers make other vertices.
     """
     check_source_writable(source)
     vertices, original = len(found.shape.points), len(source.data.vertices)
@@ -136,7 +120,7 @@ def write_on_source(
         )
     values = _on_vertices(found)
     set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)
-    write_feature_size(source, found)
+    _write_feature_size(source, found)
     if colours:
         alone = not len(source.data.color_attributes)  # else renders show those of the artist
         colour_mesh(source.data, values, 0.0, _SCALE * found.density.limit, render=alone)
@@ -160,6 +144,27 @@ def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
     bare = np.flatnonzero(values < 0.0)
     values[bare] = found.epsilon[_nearest(vertices[bare], found.vertices)]
     return as_float32(values)
+
+
+def _write_feature_size(source: bpy.types.Object, found: SamplingReport) -> None:
+    """Give the vertices of a source the feature size at the nearest sample, and weights of where detail is."""
+    with own_errors() as module:
+        sizes = found.feature_size[module.nearest(found.vertices, found.shape.points)]
+    set_attribute(source.data, FEATURE_SIZE, "FLOAT", "POINT", as_float32(sizes))
+    write_steps(source, FEATURE_SIZE, _detail_of(sizes))
+
+
+def _detail_of(sizes: Floats) -> Floats:
+    """(n,) 1 where the feature size is smallest, 0 where it is largest, even steps of its logarithm in between; 0 where
+    it is not known."""
+    known = np.isfinite(sizes) & (sizes > 0.0)
+    if not known.any():
+        return np.zeros(len(sizes))
+    logarithms = np.log(np.where(known, sizes, np.inf))
+    low, high = np.quantile(logarithms[known], [_ENDS, 1.0 - _ENDS])
+    if low == high:
+        return known.astype(np.float64)
+    return np.clip((high - logarithms) / (high - low), 0.0, 1.0)
 
 
 def _nearest(points: Floats, others: Floats) -> NDArray[np.intp]:

@@ -24,17 +24,9 @@ from ..mesh.axis_arrays import AxisArrays, arrays_of
 
 @dataclass(frozen=True, eq=False)
 class ShownAxis:
-    """The part of an axis that is shown.
+    """The part of an axis that is shown, and its arrays.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-    arrays : AxisArrays
-        Of this axis.
-    pieces : int
-        The number of its connected pieces.
-    hidden, crumbs : int
-        The numbers of facets and of crumbs that are left out.
+    `pieces` counts its connected pieces; `hidden` and `crumbs` count the facets and the crumbs that are left out.
     """
 
     axis: MedialAxis
@@ -45,15 +37,7 @@ class ShownAxis:
 
 
 def shown_axis(whole: MedialAxis, box: Sequence[float] | None, look: Look) -> ShownAxis:
-    """Find the part of an axis that a look shows.
-
-    Parameters
-    ----------
-    whole : MedialAxis
-    box : sequence of 6 float, or None
-        That of the samples, as from `box_of`.
-    look : Look
-    """
+    """Find the part of an axis that a look shows; `box` is that of the samples, as from `box_of`."""
     axis = _left(whole, box, look)
     return ShownAxis(
         axis,

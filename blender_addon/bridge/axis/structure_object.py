@@ -14,7 +14,7 @@ from ...core.axis.medial_axis import MedialAxis
 from ...core.axis.structure import FIELDS, Structure
 from ...core.axis.structure_table import counts_of
 from ..mesh import stored
-from ..mesh.attributes import structure_attributes
+from ..mesh.attributes import STRUCTURE_ATTRIBUTES, read_attribute
 from ..mesh.mesh_arrays import read_edges
 
 _OF_TABLE = tuple(name for name in FIELDS if name.startswith(("part_", "curve_", "node_")))
@@ -45,14 +45,7 @@ def read_structure(
 ) -> Structure | None:
     """The structure of a mesh; None where it has none, or where an artist has changed its elements.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    alone : (w,) int
-        The edges without a face.
-    result : Object
-    generators : (f, 2) int32
-        As the mesh has them: exchanged where the facet was turned.
+    `alone` are the edges without a face; `generators` are as the mesh has them: exchanged where the facet was turned.
     """
     if stored.STRUCTURE not in result:
         return None
@@ -62,7 +55,10 @@ def read_structure(
         )
         for name, values in json.loads(result[stored.STRUCTURE]).items()
     }
-    columns = {a.field: _column(mesh, a.name, a.domain) for a in structure_attributes()}
+    columns = {
+        a.field: read_attribute(mesh.attributes, a.name, a.type, a.domain)
+        for a in STRUCTURE_ATTRIBUTES
+    }
     if any(column is None for column in columns.values()):
         return None
     of_facets = np.ones(len(mesh.edges), bool)
@@ -75,15 +71,6 @@ def read_structure(
         turned=generators[:, 0] > generators[:, 1], facet_edges=edges, **columns, **table
     )
     return found if _is_whole(found) else None
-
-
-def _column(mesh: bpy.types.Mesh, name: str, domain: str) -> Ints | None:
-    found = mesh.attributes.get(name)
-    if found is None or (found.domain, found.data_type) != (domain, "INT"):
-        return None
-    values = np.empty(len(found.data), np.int32)
-    found.data.foreach_get("value", values)
-    return values
 
 
 def _is_whole(structure: Structure) -> bool:

@@ -18,18 +18,10 @@ from ...core.samples.sampling_report import SamplingReport
 
 @dataclass(frozen=True)
 class Attribute:
-    """One attribute of a mesh that is made.
+    """One attribute of a mesh that is made, with Blender's identifiers of its domain and its type.
 
-    Parameters
-    ----------
-    name : str
-        In Blender.
-    field, column : str, int or None
-        Of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for pairs.
-    domain, type : str
-        Blender's identifiers.
-    dtype : type
-        What Blender stores, so that it is copied without conversion.
+    `field` is that of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for
+    pairs. `dtype` is what Blender stores, so that it is copied without conversion.
     """
 
     name: str
@@ -38,11 +30,6 @@ class Attribute:
     type: str
     dtype: type
     column: int | None = None
-
-    @property
-    def width(self) -> int:
-        """The number of numbers that an element has."""
-        return {"INT32_2D": 2, "FLOAT_VECTOR": 3}.get(self.type, 1)
 
     @property
     def key(self) -> str:
@@ -57,6 +44,16 @@ class Attribute:
         if self.dtype is np.float32:
             array = as_float32(array)
         return np.ascontiguousarray(array, self.dtype).ravel()
+
+
+# The numbers of an element of each kind of attribute: how many there are, and Blender's type of them.
+_NUMBERS = {
+    "FLOAT": (1, np.float32),
+    "FLOAT_VECTOR": (3, np.float32),
+    "INT": (1, np.int32),
+    "INT32_2D": (2, np.int32),
+    "BOOLEAN": (1, np.bool_),
+}
 
 
 def as_float32(values: Floats) -> NDArray[np.float32]:
@@ -76,7 +73,7 @@ _TWO_INTS = (
     Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
 )
 # Only clean forms and curves have these attributes; lengths are percent of the diagonal, as on the sliders.
-_LEVEL = (
+LEVEL_ATTRIBUTES = (
     Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
     Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
     Attribute("ma_place", "place", "POINT", "INT", np.int32),
@@ -88,7 +85,7 @@ _LEVEL = (
 # Only clean forms have these; the edges are those of the facets, which come first.
 PART = Attribute("ma_part", "part", "FACE", "INT", np.int32)
 _KIND = Attribute("ma_kind", "kind", "POINT", "INT", np.int32)
-_STRUCTURE = (
+STRUCTURE_ATTRIBUTES = (
     PART,
     Attribute("ma_seam", "seam", "EDGE", "INT", np.int32),
     Attribute("ma_curve", "curve", "EDGE", "INT", np.int32),
@@ -113,16 +110,6 @@ def attributes() -> tuple[Attribute, ...]:
     return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
 
 
-def level_attributes() -> tuple[Attribute, ...]:
-    """The further attributes of clean forms and curves."""
-    return _LEVEL
-
-
-def structure_attributes() -> tuple[Attribute, ...]:
-    """The attributes of the structure of a clean form."""
-    return _STRUCTURE
-
-
 def _key_of(kind: str) -> str:
     """The property in which Blender keeps the values of a kind of attribute."""
     return "vector" if kind == "FLOAT_VECTOR" else "value"
@@ -131,10 +118,7 @@ def _key_of(kind: str) -> str:
 def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
     """Give a mesh in object mode an attribute; one of that name and of another kind is replaced.
 
-    Raises
-    ------
-    InvalidInputError
-        Something else has the name, such as a vertex group.
+    Raises InvalidInputError where something else has the name, such as a vertex group.
     """
     found = mesh.attributes.get(name)
     if found is not None and (found.domain, found.data_type) != (domain, kind):
@@ -156,8 +140,17 @@ def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> b
     )
 
 
-def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:
-    return name in mesh.attributes
+def read_attribute(
+    attributes: bpy.types.AttributeGroup, name: str, kind: str, domain: str
+) -> NDArray | None:
+    """Return the numbers of an attribute, (n,) or (n, 2 or 3); None where there is none of that kind and domain."""
+    found = attributes.get(name)
+    if found is None or (found.domain, found.data_type) != (domain, kind):
+        return None
+    width, dtype = _NUMBERS[kind]
+    values = np.empty(len(found.data) * width, dtype)
+    found.data.foreach_get(_key_of(kind), values)
+    return values.reshape(-1, width) if width > 1 else values
 
 
 # Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier
@@ -180,9 +173,9 @@ def read_normals(attributes: bpy.types.AttributeGroup) -> Floats | None:
     for name in NORMAL_NAMES:
         if name == NORMAL and _KIND.name in attributes:
             continue
-        found = attributes.get(name)
-        if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_VECTOR"):
-            return read_vectors(found.data, "vector")
+        found = read_attribute(attributes, name, "FLOAT_VECTOR", "POINT")
+        if found is not None:
+            return found.astype(np.float64)
     return None
 
 

@@ -22,16 +22,9 @@ from ...core.machine.native import own_errors
 class AxisArrays:
     """The arrays of an axis.
 
-    Parameters
-    ----------
-    turned : MedialAxis
-        The facets of a sheet turn the same way.
-    edges : (e, 2) int32
-        Those of the facets, and not the edges alone.
-    corner_edges : (c,) int32
-        The edge after each corner.
-    normals, tangents : (v, 3) float32 or None
-        The directions of the sheet and of the curve at each vertex; None where there are no sheets, or no curves.
+    In `turned` the facets of a sheet turn the same way. `edges`, (e, 2) int32, are those of the facets, and not the
+    edges alone; `corner_edges`, (c,) int32, has the edge after each corner. `normals` and `tangents`, (v, 3), are the
+    directions of the sheet and of the curve at each vertex; None where there are no sheets, or no curves.
     """
 
     turned: MedialAxis

@@ -18,16 +18,10 @@ COLOUR = "ma_color"
 def colour_mesh(
     mesh: bpy.types.Mesh, values: NDArray, start: float, end: float, render: bool = True
 ) -> None:
-    """Give a mesh `ma_color`, active in the viewport and, where `render` is true, in renders.
+    """Give a mesh in object mode `ma_color`, active in the viewport and, with `render`, in renders.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        In object mode; an existing attribute of that name is replaced.
-    values : (number of vertices,)
-        NaN is grey.
-    start, end : float
-        What is blue and what is yellow; start may be the larger one.
+    An existing attribute of that name is replaced. Of the values at the vertices `start` is blue and `end` is yellow,
+    whichever is larger; NaN is grey.
     """
     attribute = _attribute(mesh)
     attribute.data.foreach_set("color", colours(values, start, end).ravel())
@@ -52,13 +46,8 @@ def coloured_mesh(
 def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
     """Give a new mesh `ma_color` by the parts of its polygons, active in the viewport and in renders.
 
-    Colours belong to corners, because a vertex of a seam lies on several parts.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    part, sizes : (number of polygons,)
-        The part and the number of corners of each polygon.
+    Colours belong to corners, because a vertex of a seam lies on several parts. `part` and `sizes` have the part and
+    the number of corners of each polygon.
     """
     attribute = mesh.color_attributes.new(COLOUR, "FLOAT_COLOR", "CORNER")
     attribute.data.foreach_set("color", part_colours(part).repeat(sizes, axis=0).ravel())

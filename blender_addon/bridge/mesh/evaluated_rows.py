@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays import Ints
+from .attributes import read_attribute
 
 _INDEX = "ma_index_in_mesh"
 # Modifiers that move vertices, and leave their number and order.
@@ -88,12 +89,8 @@ def _origins(source: bpy.types.Object, domain: str, count: int) -> Ints:
         mesh.update()
         bpy.context.view_layer.update()
         evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-        found = evaluated.attributes.get(name)
-        if found is None or found.domain != domain:
-            return np.empty(0, np.int32)
-        origin = np.empty(len(found.data), np.int32)
-        found.data.foreach_get("value", origin)
-        return origin
+        origin = read_attribute(evaluated.attributes, name, "INT", domain)
+        return np.empty(0, np.int32) if origin is None else origin
     finally:
         mesh.attributes.remove(mesh.attributes[name])
         mesh.update()

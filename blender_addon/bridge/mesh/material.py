@@ -24,20 +24,17 @@ FLAT = (0.08, 0.42, 0.5, 1.0)  # of results without colours; orange is what Blen
 
 def radius_material() -> bpy.types.Material:
     """The material, made when it does not exist; changes that an artist made in it stay."""
-    found = bpy.data.materials.get((NAME, None))
-    return found or _new_material(NAME, RADIUS.name)
+    return _material(NAME, RADIUS.name)
 
 
 def epsilon_material() -> bpy.types.Material:
     """As `radius_material`, for reports."""
-    found = bpy.data.materials.get((EPSILON_NAME, None))
-    return found or _new_material(EPSILON_NAME, EPSILON.name)
+    return _material(EPSILON_NAME, EPSILON.name)
 
 
 def thickness_material() -> bpy.types.Material:
     """As `radius_material`, for sheets with the thickness of walls."""
-    found = bpy.data.materials.get((THICKNESS_NAME, None))
-    return found or _new_material(THICKNESS_NAME, THICKNESS)
+    return _material(THICKNESS_NAME, THICKNESS)
 
 
 def colour_material() -> bpy.types.Material:
@@ -56,8 +53,10 @@ def dress(thing: bpy.types.Object, material: bpy.types.Material) -> None:
     thing.color = FLAT
 
 
-def _new_material(name: str, value: str) -> bpy.types.Material:
+def _material(name: str, value: str) -> bpy.types.Material:
     """Colour by an attribute, from the one property of the object to the other."""
+    if found := bpy.data.materials.get((name, None)):
+        return found
     material, shader = _empty_material(name)
     nodes, links = material.node_tree.nodes, material.node_tree.links
     spread = nodes.new("ShaderNodeMapRange")
@@ -71,7 +70,9 @@ def _new_material(name: str, value: str) -> bpy.types.Material:
     ):
         node = _attribute(nodes, kind, attribute, (-900, 200 - 200 * socket))
         links.new(node.outputs[2], spread.inputs[socket])
-    ramp = _ramp(nodes)
+    ramp = nodes.new("ShaderNodeValToRGB")
+    ramp.location = (-400, 200)
+    fill_ramp(ramp.color_ramp.elements)
     links.new(spread.outputs[0], ramp.inputs[0])
     links.new(ramp.outputs[0], shader.inputs["Base Color"])
     return material
@@ -97,13 +98,9 @@ def _attribute(
     return node
 
 
-def _ramp(nodes: bpy.types.Nodes) -> bpy.types.Node:
-    node = nodes.new("ShaderNodeValToRGB")
-    node.location = (-400, 200)
-    elements = node.color_ramp.elements
+def fill_ramp(elements: bpy.types.ColorRampElements) -> None:
+    """Give a new ramp the colours of all that is coloured here."""
     elements.remove(elements[1])
     for number, (position, colour) in enumerate(SCALE):
         element = elements[0] if number == 0 else elements.new(position)
-        element.position = position
-        element.color = (*colour, 1.0)
-    return node
+        element.position, element.color = position, (*colour, 1.0)

@@ -16,12 +16,12 @@ from ...core.axis.medial_axis import MedialAxis, no_edges
 from ...core.axis.structure import SEAM, Structure
 from ...core.errors import InvalidInputError
 from .attributes import (
+    LEVEL_ATTRIBUTES,
     NORMAL,
+    STRUCTURE_ATTRIBUTES,
     TANGENT,
     Attribute,
     attributes,
-    level_attributes,
-    structure_attributes,
 )
 from .axis_arrays import AxisArrays, arrays_of, edges_of
 
@@ -37,20 +37,9 @@ class Polygons(Protocol):
 def new_axis_mesh(
     axis: MedialAxis, name: str | bpy.types.Mesh, arrays: AxisArrays | None = None
 ) -> bpy.types.Mesh:
-    """A medial axis as a mesh with all attributes, or no mesh at all.
+    """A medial axis as a mesh with all attributes, or no mesh at all, as `new_mesh`.
 
-    Parameters
-    ----------
-    axis : MedialAxis
-    name : str or Mesh
-        As in `new_mesh`.
-    arrays : AxisArrays, optional
-        Those of `axis`, where a thread has computed them.
-
-    Raises
-    ------
-    InvalidInputError
-        Coordinates too large for Blender.
+    `arrays` are those of the axis, where a thread has computed them.
     """
     if arrays is None:
         arrays = arrays_of(axis)
@@ -61,7 +50,7 @@ def new_axis_mesh(
         _add_vectors(mesh, TANGENT, arrays.tangents)
         if axis.level is None:
             return mesh
-        _add_attributes(mesh, axis.level, level_attributes())
+        _add_attributes(mesh, axis.level, LEVEL_ATTRIBUTES)
         if axis.structure is not None:
             _add_structure(mesh, axis.structure)
             _shade_by_side(mesh, np.diff(axis.face_offsets))
@@ -81,7 +70,7 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
     Blender takes edges of other than two faces for sharp by itself.
     """
     alone = len(mesh.edges) - len(structure.seam)
-    for attribute in structure_attributes():
+    for attribute in STRUCTURE_ATTRIBUTES:
         data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
         own = attribute.values(structure)
         if attribute.domain == "EDGE":
@@ -139,21 +128,10 @@ def new_mesh(
 ) -> bpy.types.Mesh:
     """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
 
-    Parameters
-    ----------
-    polygons : Polygons
-    name : str or Mesh
-        A mesh is emptied and filled again; it stays as it is where the coordinates are refused.
-    table : iterable of Attribute
-    edges : (w, 2) int32, optional
-        Edges besides those of the polygons; they come after these.
-    of_polygons : tuple of arrays, optional
-        The edges of the polygons and the edge after each corner, where a thread has computed them.
-
-    Raises
-    ------
-    InvalidInputError
-        Coordinates too large for Blender.
+    `name` is that of a new mesh, or a mesh that is emptied and filled again; it stays as it is where the coordinates
+    are refused. `edges`, (w, 2) int32, come after those of the polygons. `of_polygons` are the edges of the polygons
+    and the edge after each corner, where a thread has computed them. Raises InvalidInputError where coordinates are too
+    large for Blender.
     """
     positions = _positions(polygons)
     _check_faces(polygons)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.material import radius_material
-from .radii import points_with_radii
+from .shared import balls, points_with_radii
 from .tree import Tree
 
 COLOURED = "Coloured"
@@ -22,12 +22,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     level = tree.input(
         "NodeSocketInt", "Subdivisions", 2, "Of each sphere", min_value=1, max_value=6
     )
-    sphere = tree.node("GeometryNodeMeshIcoSphere", 1.0, level)
-    round_one = tree.node("GeometryNodeSetShadeSmooth", sphere)
-    balls = tree.node(
-        "GeometryNodeInstanceOnPoints",
-        named={"Points": points, "Instance": round_one, "Scale": radius},
-    )
+    instances = balls(tree, points, radius, level)
     coloured = tree.input(
         "NodeSocketBool",
         COLOURED,
@@ -36,9 +31,9 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     )
     mesh = tree.node(
         "GeometryNodeSetMaterial",
-        tree.node("GeometryNodeRealizeInstances", balls),
+        tree.node("GeometryNodeRealizeInstances", instances),
         named={"Material": radius_material()},
     )
     return tree.output(
-        tree.node("GeometryNodeSwitch", coloured, balls, mesh, input_type="GEOMETRY")
+        tree.node("GeometryNodeSwitch", coloured, instances, mesh, input_type="GEOMETRY")
     )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.types import NodeSocket
 
 from .tree import Tree
 
@@ -16,7 +17,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     stays = _stays(tree)
     limb = tree.number("Limb", 0.0, "Edges without facets of limbs shorter than this go; percent")
     alone = tree.compare("EQUAL", tree.node("GeometryNodeInputMeshEdgeNeighbors"), 0.0)
-    marked = _store_alone(tree, tree.geometry, alone)
+    marked = tree.stored(tree.geometry, _ALONE, alone, "BOOLEAN", "EDGE")
     facets = tree.node(
         "GeometryNodeDeleteGeometry",
         marked,
@@ -34,7 +35,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     return tree.output(tree.node("GeometryNodeRemoveAttribute", edges, named={"Name": _ALONE}))
 
 
-def _stays(tree: Tree) -> bpy.types.NodeSocket:
+def _stays(tree: Tree) -> NodeSocket:
     """Keeps the facets that pass theta or rho, where these are above 0, and everything that is no facet."""
     theta = tree.number(
         "Theta",
@@ -75,14 +76,3 @@ _FLOORS = (
         "Rims recede, as by Trim Rims; percent of the diagonal, of the form Clean",
     ),
 )
-
-
-def _store_alone(
-    tree: Tree, geometry: bpy.types.NodeSocket, alone: bpy.types.NodeSocket
-) -> bpy.types.NodeSocket:
-    return tree.node(
-        "GeometryNodeStoreNamedAttribute",
-        named={"Geometry": geometry, "Name": _ALONE, "Value": alone},
-        data_type="BOOLEAN",
-        domain="EDGE",
-    )

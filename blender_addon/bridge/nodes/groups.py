@@ -8,18 +8,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
+import numpy as np
 
+from ...core.arrays import Floats
 from ..mesh import stored
 from ..mesh.mesh_arrays import read_positions
 from . import balls, filter, rebuild, thicken, thickness_colour
 from .inputs import has_inputs, set_inputs
-from .merging import merging_distance
 from .wires import wires_of
 
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
 _MOST_BALLS = 4_000  # about this many balls are left
+_HALVINGS = 16  # of the distance within which they are merged
 
 
 @dataclass(frozen=True)
@@ -104,9 +106,30 @@ def add_coloured_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
 def add_few_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
     """The modifier with the group of balls, merged so that a few thousand are left, which Blender draws fast."""
     modifier = add_coloured_balls(thing)
-    distance = merging_distance(read_positions(thing.data), _MOST_BALLS)
+    distance = _merging_distance(read_positions(thing.data), _MOST_BALLS)
     set_inputs(modifier, {"Merge": distance})
     return modifier
+
+
+def _merging_distance(points: Floats, most: int) -> float:
+    """Return the distance that leaves about `most` of (n, 3) points when they are merged; 0 where there are no more.
+
+    This many cells of a grid of that width have points in them.
+    """
+    if len(points) <= most:
+        return 0.0
+    low, high = 0.0, float(np.ptp(points, axis=0).max())
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        few = _cells(points, middle) <= most
+        low, high = (low, middle) if few else (middle, high)
+    return high
+
+
+def _cells(points: Floats, width: float) -> int:
+    cells = ((points - points.min(axis=0)) / width).astype(np.int64)
+    sizes = cells.max(axis=0) + 1
+    return len(np.unique((cells[:, 0] * sizes[1] + cells[:, 1]) * sizes[2] + cells[:, 2]))
 
 
 def write_library(folder: Path) -> None:

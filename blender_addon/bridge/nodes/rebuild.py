@@ -8,8 +8,7 @@ from bpy.types import NodeSocket
 
 from ..mesh.attributes import RADIUS
 from ..mesh.material import radius_material
-from .radii import points_with_radii
-from .ramp import stored_colour
+from .shared import points_with_radii, stored_colour
 from .tree import Tree
 
 # Grids of distances came with 4.x, behind an experimental option, and are there for all from 5.0.
@@ -68,35 +67,15 @@ def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
         data_type="FLOAT",
         domain="POINT",
     )
-    mesh = _stored(tree, mesh, radius)
+    mesh = tree.stored(mesh, RADIUS.name, radius)
     mean = tree.attribute(RADIUS.name)
     for domain in ("FACE", "POINT") * _MEANS:
         mean = tree.node("GeometryNodeFieldOnDomain", mean, data_type="FLOAT", domain=domain)
-    mesh = _stored(tree, mesh, mean)
-    least, most = _range_of_radii(tree)
+    mesh = tree.stored(mesh, RADIUS.name, mean)
+    least, most = tree.ends(tree.attribute(RADIUS.name))
     end = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
     below = tree.math("SUBTRACT", most, tree.attribute(RADIUS.name))
     return stored_colour(tree, mesh, tree.math("DIVIDE", below, tree.math("SUBTRACT", most, end)))
-
-
-def _stored(tree: Tree, mesh: NodeSocket, radius: NodeSocket) -> NodeSocket:
-    return tree.node(
-        "GeometryNodeStoreNamedAttribute",
-        named={"Geometry": mesh, "Name": RADIUS.name, "Value": radius},
-        data_type="FLOAT",
-        domain="POINT",
-    )
-
-
-def _range_of_radii(tree: Tree) -> list[NodeSocket]:
-    """The smallest and the largest radius of the axis."""
-    found = tree.node(
-        "GeometryNodeAttributeStatistic",
-        named={"Geometry": tree.geometry, "Attribute": tree.attribute(RADIUS.name)},
-        data_type="FLOAT",
-        domain="POINT",
-    ).node
-    return [next(s for s in found.outputs if s.enabled and s.name == n) for n in ("Min", "Max")]
 
 
 def _scaled(tree: Tree, geometry: NodeSocket, factor: NodeSocket) -> NodeSocket:
@@ -122,7 +101,7 @@ def _voxel(tree: Tree) -> NodeSocket:
         "ShaderNodeVectorMath", box.outputs["Max"], box.outputs["Min"], operation="SUBTRACT"
     )
     length = tree.node("ShaderNodeVectorMath", across, operation="LENGTH")
-    _, largest = _range_of_radii(tree)
+    _, largest = tree.ends(tree.attribute(RADIUS.name))
     whole = tree.math("MULTIPLY_ADD", largest, 2.0, length)
     return tree.choose(
         tree.compare("GREATER_THAN", asked, 0.0), tree.math("DIVIDE", whole, 128.0), asked

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.attributes import RADIUS
-from .ramp import stored_colour
+from .shared import stored_colour
 from .tree import Tree
 
 
@@ -23,13 +23,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
         "The number of the last colour; where it is that of the first: all there are",
         least=-1e30,
     )
-    found = tree.node(
-        "GeometryNodeAttributeStatistic",
-        named={"Geometry": tree.geometry, "Attribute": attribute},
-        data_type="FLOAT",
-        domain="POINT",
-    ).node
-    ends = [next(s for s in found.outputs if s.enabled and s.name == n) for n in ("Min", "Max")]
+    ends = tree.ends(attribute)
     all_of_them = tree.compare("EQUAL", start, end)
     low = tree.choose(all_of_them, start, ends[0])
     high = tree.choose(all_of_them, end, ends[1])

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.types import NodeSocket
 
 COLUMN, ROW = 200, 160  # how far nodes lie apart
 
@@ -18,12 +19,7 @@ _EARLIER = {"ANGLE": "NodeSocketFloatAngle", "DISTANCE": "NodeSocketFloatDistanc
 
 
 class Tree:
-    """A new group with the input *Geometry*; `geometry` is its socket.
-
-    Parameters
-    ----------
-    name : str
-    """
+    """A new group with the input *Geometry*; `geometry` is its socket."""
 
     def __init__(self, name: str) -> None:
         self.group = bpy.data.node_groups.new(name, "GeometryNodeTree")
@@ -35,7 +31,7 @@ class Tree:
 
     def input(
         self, kind: str, name: str, default: Any = None, about: str = "", **settings: Any
-    ) -> bpy.types.NodeSocket:
+    ) -> NodeSocket:
         """A new input of the group; `settings` are those of its socket, such as `min_value` or `subtype`."""
         subtype = settings.pop("subtype", None)
         socket = self._declare("INPUT", kind, name, subtype)
@@ -49,23 +45,15 @@ class Tree:
 
     def number(
         self, name: str, default: float, about: str, subtype: str = "NONE", least: float = 0.0
-    ) -> bpy.types.NodeSocket:
+    ) -> NodeSocket:
         """An input that is a float, not below `least`."""
         return self.input("NodeSocketFloat", name, default, about, subtype=subtype, min_value=least)
 
     def node(self, kind: str, *values: Any, named: dict[str, Any] | None = None, **settings: Any):
-        """A new node; returns its first output.
+        """A new node, by Blender's identifier; returns its first output.
 
-        Parameters
-        ----------
-        kind : str
-            Blender's identifier.
-        values : sockets or plain values
-            Of its inputs in order; None leaves one as it is.
-        named : dict, optional
-            The same by the name of the input.
-        settings
-            Properties of the node.
+        `values`, sockets or plain ones, are those of its inputs in order, and None leaves an input as it is; `named`
+        has the same by the name of the input. `settings` are properties of the node.
         """
         node = self._add(kind)
         for name, value in settings.items():
@@ -77,25 +65,46 @@ class Tree:
             self._connect(value, next(socket for socket in used if socket.name == name))
         return next(socket for socket in node.outputs if socket.enabled)
 
-    def math(self, operation: str, *values: Any) -> bpy.types.NodeSocket:
+    def math(self, operation: str, *values: Any) -> NodeSocket:
         return self.node("ShaderNodeMath", *values, operation=operation)
 
-    def logic(self, operation: str, *values: Any) -> bpy.types.NodeSocket:
+    def logic(self, operation: str, *values: Any) -> NodeSocket:
         return self.node("FunctionNodeBooleanMath", *values, operation=operation)
 
-    def compare(self, operation: str, a: Any, b: Any) -> bpy.types.NodeSocket:
+    def compare(self, operation: str, a: Any, b: Any) -> NodeSocket:
         """A mathematical operation on two floats."""
         return self.node("FunctionNodeCompare", a, b, data_type="FLOAT", operation=operation)
 
-    def choose(self, condition: Any, no: Any, yes: Any) -> bpy.types.NodeSocket:
+    def choose(self, condition: Any, no: Any, yes: Any) -> NodeSocket:
         """One of two floats."""
         return self.node("GeometryNodeSwitch", condition, no, yes, input_type="FLOAT")
 
-    def attribute(self, name: Any) -> bpy.types.NodeSocket:
+    def attribute(self, name: Any) -> NodeSocket:
         """A float of the geometry; 0 where it has no such attribute."""
         return self.node("GeometryNodeInputNamedAttribute", name, data_type="FLOAT")
 
-    def output(self, geometry: bpy.types.NodeSocket) -> bpy.types.GeometryNodeTree:
+    def ends(self, value: NodeSocket) -> list[NodeSocket]:
+        """The smallest and the largest of a float over the points of the geometry."""
+        named = {"Geometry": self.geometry, "Attribute": value}
+        kind = "GeometryNodeAttributeStatistic"
+        found = self.node(kind, named=named, data_type="FLOAT", domain="POINT").node.outputs
+        return [next(s for s in found if s.enabled and s.name == name) for name in ("Min", "Max")]
+
+    def stored(
+        self,
+        geometry: NodeSocket,
+        name: str,
+        value: NodeSocket,
+        kind: str = "FLOAT",
+        domain: str = "POINT",
+    ) -> NodeSocket:
+        """A geometry with an attribute of this kind."""
+        named = {"Geometry": geometry, "Name": name, "Value": value}
+        return self.node(
+            "GeometryNodeStoreNamedAttribute", named=named, data_type=kind, domain=domain
+        )
+
+    def output(self, geometry: NodeSocket) -> bpy.types.GeometryNodeTree:
         """Ends the group; returns it."""
         self._declare("OUTPUT", "NodeSocketGeometry", "Geometry", None)
         self.group.links.new(geometry, self._add("NodeGroupOutput").inputs[0])
@@ -117,8 +126,8 @@ class Tree:
             socket.subtype = subtype
         return socket
 
-    def _connect(self, value: Any, socket: bpy.types.NodeSocket) -> None:
-        if isinstance(value, bpy.types.NodeSocket):
+    def _connect(self, value: Any, socket: NodeSocket) -> None:
+        if isinstance(value, NodeSocket):
             self.group.links.new(value, socket)
         elif value is not None:
             socket.default_value = value

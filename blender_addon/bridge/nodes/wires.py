@@ -14,6 +14,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from bpy.types import NodeSocket
 
 from ...core.axis.medial_axis import MedialAxis
 from ...core.small_matrices import length_of
@@ -21,6 +22,7 @@ from ..mesh import stored
 from ..mesh.attributes import RADIUS
 from ..mesh.material import radius_material
 from .inputs import has_inputs, input_of, row_of, set_inputs
+from .shared import balls, tubes
 from .tree import Tree
 
 NAME = "Medial Axis Wires"
@@ -161,7 +163,7 @@ def _new_group() -> bpy.types.NodeTree:
     return tree.output(_joined(tree, _without_hairlines(tree, has_tubes), painted))
 
 
-def _without_hairlines(tree: Tree, has_tubes: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+def _without_hairlines(tree: Tree, has_tubes: NodeSocket) -> NodeSocket:
     """The axis without the edges for which tubes stand, or which are too many for tubes beside sheets:
     newer Blenders draw them black."""
     size = tree.node("GeometryNodeAttributeDomainSize", tree.geometry).node.outputs
@@ -173,7 +175,7 @@ def _without_hairlines(tree: Tree, has_tubes: bpy.types.NodeSocket) -> bpy.types
     )
 
 
-def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+def _joined(tree: Tree, *parts: NodeSocket) -> NodeSocket:
     """The parts as one geometry, the first of them first."""
     whole = tree.node("GeometryNodeJoinGeometry")
     for part in reversed(parts):  # the last to be linked comes first
@@ -181,50 +183,23 @@ def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
     return whole
 
 
-def _away_from_two(tree: Tree, count: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+def _away_from_two(tree: Tree, count: NodeSocket) -> NodeSocket:
     return tree.math("ABSOLUTE", tree.math("SUBTRACT", count, 2.0))
 
 
-def _tubes(
-    tree: Tree, radius: bpy.types.NodeSocket, sides: bpy.types.NodeSocket
-) -> bpy.types.NodeSocket:
+def _tubes(tree: Tree, radius: NodeSocket, sides: NodeSocket) -> NodeSocket:
     """Tubes along the edges that have no face."""
     shown = tree.compare("GREATER_THAN", sides, 2.5)
     alone = tree.logic("NOT", tree.node("GeometryNodeInputMeshEdgeNeighbors"))
     curves = tree.node("GeometryNodeMeshToCurve", tree.geometry, tree.logic("AND", alone, shown))
-    curves = tree.node("GeometryNodeSetCurveRadius", named={"Curve": curves, "Radius": radius})
-    circle = tree.node(
-        "GeometryNodeCurvePrimitiveCircle",
-        named={"Resolution": tree.math("MAXIMUM", sides, 3.0), "Radius": 1.0},
-    )
-    tubes = tree.node(
-        "GeometryNodeCurveToMesh",
-        named={"Curve": curves, "Profile Curve": circle, "Fill Caps": True},
-    )
-    scale = tubes.node.inputs.get("Scale")  # where it exists, radii of curves have no effect
-    if scale is not None:
-        tree.group.links.new(radius, scale)
-    return tubes
+    return tubes(tree, curves, radius, tree.math("MAXIMUM", sides, 3.0), caps=True)
 
 
-def _balls(
-    tree: Tree,
-    radius: bpy.types.NodeSocket,
-    level: bpy.types.NodeSocket,
-    where: bpy.types.NodeSocket,
-) -> bpy.types.NodeSocket:
+def _balls(tree: Tree, radius: NodeSocket, level: NodeSocket, where: NodeSocket) -> NodeSocket:
     """Balls at some of the vertices."""
     shown = tree.logic("AND", where, tree.compare("GREATER_THAN", level, 0.5))
     points = tree.node(
         "GeometryNodeMeshToPoints", named={"Mesh": tree.geometry, "Selection": shown}
     )
-    ball = tree.node(
-        "GeometryNodeMeshIcoSphere",
-        named={"Radius": 1.0, "Subdivisions": tree.math("MAXIMUM", level, 1.0)},
-    )
-    round_ball = tree.node("GeometryNodeSetShadeSmooth", ball)
-    balls = tree.node(
-        "GeometryNodeInstanceOnPoints",
-        named={"Points": points, "Instance": round_ball, "Scale": radius},
-    )
-    return tree.node("GeometryNodeRealizeInstances", balls)
+    some = balls(tree, points, radius, tree.math("MAXIMUM", level, 1.0))
+    return tree.node("GeometryNodeRealizeInstances", some)

@@ -2,7 +2,9 @@
 """Objects that are made of a source, and updated in place when the source is computed again.
 
 They remember their source in a custom property, and are its children unless this is switched off; the source is not
-changed.
+changed. The functions `write_...(source, found, frame)` of the products make or update them, all or nothing; `frame`, a
+(4, 4) rotation and translation, is where they lie in the world. They raise InvalidInputError where an object cannot be
+changed now, or Blender cannot hold it.
 """
 
 from __future__ import annotations
@@ -71,18 +73,9 @@ def output_of(
 class Product:
     """One kind of object that is made of a source: how it is found, made and updated.
 
-    Parameters
-    ----------
-    suffix : str
-        The name of the object is the name of its source and this.
-    marks : tuple of str
-        Custom properties that objects of this kind, and no others, have.
-    type : str
-        Blender's type of these objects.
-    part : str
-        Of which connected part of a source objects are made; empty for those that are made of the whole.
-    material : function, optional
-        Returns the material that new objects get, with the flat colour of all products.
+    An object is named like its source with the `suffix`. Objects of this kind, and no others, have Blender's `type` and
+    all the custom properties `marks`. `part` is the connected part of a source of which they are made; it is empty for
+    the whole. New objects get the material that `material` returns, with the flat colour of all products.
     """
 
     suffix: str
@@ -132,15 +125,8 @@ class Product:
     ) -> tuple[bpy.types.Object, bool]:
         """As `write_mesh`, with colours of the vertices, whose range is remembered for the material and the legend.
 
-        Parameters
-        ----------
-        source : Object
-        build : function
-        of : str
-            The name of the attribute that is shown, or "" for a mesh without colours.
-        values : (number of vertices,)
-        start, end : float
-            What is blue and what is yellow.
+        `of` is the name of the attribute that is shown, or "" for a mesh without colours; of its values at the vertices
+        `start` is blue and `end` is yellow.
         """
         coloured = partial(coloured_mesh, build, values, start, end) if of else build
         thing, is_new = self.write_mesh(source, coloured)
@@ -169,15 +155,10 @@ def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> b
 def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = False) -> None:
     """Swap in a new mesh, also for linked duplicates; materials and the name stay.
 
-    Parameters
-    ----------
-    output : Object
-    build : function
-        Makes a mesh from its name, or fills the mesh that it is given.
-    between_steps : bool
-        No step of undo follows, so the mesh that there is is filled again: Blender keeps an object that two steps have
-        alike as it is now, and from 5.0 on it ends where such an object has a mesh that neither step has. What was
-        written so is marked on both, for undo may bring back one of the two (`is_torn`).
+    `build` makes a mesh from its name, or fills the mesh that it is given. With `between_steps` no step of undo
+    follows, so the mesh that there is is filled again: Blender keeps an object that two steps have alike as it is now,
+    and from 5.0 on it ends where such an object has a mesh that neither step has. What was written so is marked on
+    both, for undo may bring back one of the two (`is_torn`).
     """
     check_mode(output)
     old = output.data
@@ -210,15 +191,8 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
 def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
     """Make an object that has just been placed a child of its source, or its own master again.
 
-    A parent that an artist chose stays. A source that is scaled flat cannot be a parent; a curve whose path is
-    animated would carry its children along that path.
-
-    Parameters
-    ----------
-    output, source : Object
-    world : (4, 4) matrix
-        Of the source, when it was read.
-    wanted : bool
+    A parent that an artist chose stays. A source that is scaled flat cannot be a parent; a curve whose path is animated
+    would carry its children along that path. `world` is the matrix of the source when it was read.
     """
     frame = output.matrix_world.copy()
     if output.parent == source and not wanted:

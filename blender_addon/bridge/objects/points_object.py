@@ -22,20 +22,8 @@ def new_points(
 ) -> tuple[bpy.types.Object, tuple[str, ...]]:
     """A new object at the origin, in the active collection, and warnings about it.
 
-    Parameters
-    ----------
-    found : ImportedPoints
-    name : str
-        Of the object and its mesh.
-    turn : (3, 3) rotation
-        Applied to points and normals.
-    scale : float
-        Applied to points.
-
-    Raises
-    ------
-    InvalidInputError
-        Coordinates too large for Blender; nothing is made.
+    `turn`, a (3, 3) rotation, is applied to points and normals, and `scale` to points. Raises InvalidInputError where
+    coordinates are too large for Blender; then nothing is made.
     """
     placed = _placed(found, np.array(turn), scale)
     lost = rounding_warning(placed.vertices)

@@ -33,13 +33,9 @@ SOURCE_TYPES = (*SAMPLED_TYPES, "CURVE", "SURFACE", "FONT", "META")
 def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
     """Read an object as Blender evaluates it; edit mode is flushed first.
 
-    Modifiers are applied, lengths are those of the world, faces are outward also where it is mirrored.
-
-    Raises
-    ------
-    InvalidInputError
-        Of another type, not in the view layer, its modifiers leave nothing, or its transform is not
-        finite.
+    Modifiers are applied, lengths are those of the world, faces are outward also where it is mirrored. Raises
+    InvalidInputError where it is of another type or not in the view layer, its modifiers leave nothing, or its
+    transform is not finite.
     """
     evaluated = _evaluate(source, depsgraph)
     frame, rest = split_transform(np.array(evaluated.matrix_world, np.float64))
@@ -55,18 +51,10 @@ def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Sha
 
 
 def split_transform(world: Floats) -> tuple[Floats, Floats]:
-    """Polar decomposition of a world matrix.
+    """Polar decomposition of a (4, 4) world matrix.
 
-    Parameters
-    ----------
-    world : (4, 4) float64
-
-    Returns
-    -------
-    frame : (4, 4) float64
-        A rotation (never a mirror) and the translation.
-    rest : (3, 3) float64
-        Scale, shear and mirror; frame's rotation times `rest` is the linear part of `world`.
+    Returns the frame, (4, 4), which is a rotation (never a mirror) and the translation, and the rest, (3, 3), which is
+    scale, shear and mirror; the frame's rotation times the rest is the linear part of the world matrix.
     """
     if not np.isfinite(world).all():
         raise InvalidInputError(

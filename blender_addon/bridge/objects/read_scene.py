@@ -36,12 +36,8 @@ def open_file() -> str:
 def load(path: str, allow_scripts: bool = False) -> None:
     """Open a .blend file, or import another one into an empty file; what was open is gone.
 
-    Parameters
-    ----------
-    path : str
-    allow_scripts : bool
-        Whether Python in a .blend file may run: registered text blocks, and drivers that are more than simple
-        expressions. It is always said, so that no preference of the machine decides.
+    With `allow_scripts` Python in a .blend file may run: registered text blocks, and drivers that are more than simple
+    expressions. It is always said, so that no preference of the machine decides.
     """
     if not Path(path).is_file():
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
@@ -63,10 +59,7 @@ def load(path: str, allow_scripts: bool = False) -> None:
 def names(wanted: Sequence[str] | None) -> list[str]:
     """The objects that are wanted; without wishes all that are visible and were not made by this add-on.
 
-    Raises
-    ------
-    InvalidInputError
-        There are none, or not all that are wanted.
+    Raises InvalidInputError where there are none, or not all that are wanted.
     """
     there = bpy.context.view_layer.objects
     if wanted:

@@ -52,10 +52,7 @@ def mark_of(armature: bpy.types.Object, source: bpy.types.Object) -> str | None:
 def find_armature(name: str) -> bpy.types.Object | None:
     """The artist's armature of this name, None for no name.
 
-    Raises
-    ------
-    InvalidInputError
-        There is none, or bones cannot be added to it now.
+    Raises InvalidInputError where there is none, or bones cannot be added to it now.
     """
     if not name:
         return None
@@ -117,20 +114,9 @@ def write_armature(
     """Make the armature of a source, or give the existing one other bones; the source is not bound to it.
 
     Bones that an artist added stay, with their constraints, and so do the pose and the names that he gave to others.
-    The armature of its own is symmetric in its X, where the body has two sides.
-
-    Parameters
-    ----------
-    source : Object
-    rig : Rig
-    frame : (4, 4) float64
-        Where the bones lie in the world; rotation and translation only.
-    taken : set of str
-        Names of vertex groups that belong to something else, which no new bone may have.
-    ik : LimbControl
-        What moves the bones of a limb together.
-    into : Object, optional
-        An armature of the artist's own, which stays where it is.
+    The armature of its own is symmetric in its X, where the body has two sides. `taken` are names of vertex groups that
+    belong to something else, which no new bone may have. `ik` is what moves the bones of a limb together. `into` is an
+    armature of the artist's own, which stays where it is.
     """
     thing = into or rig_of(source)
     own = thing is None or mark_of(thing, source) == ""

@@ -23,13 +23,8 @@ MODIFIER = "Medial Axis Armature"
 def check_bindable(source: bpy.types.Object, bind: bool, replace_weights: bool = False) -> None:
     """Raise InvalidInputError when an armature cannot be made now, or the source not be bound to it.
 
-    Parameters
-    ----------
-    source : Object
-    bind : bool
-        Whether the source gets weights.
-    replace_weights : bool
-        Whether weights may go that were painted since the last time.
+    `bind` says whether the source gets weights, and `replace_weights` whether weights may go that were painted since
+    the last time.
     """
     if bpy.context.mode != "OBJECT":
         raise InvalidInputError(

@@ -20,10 +20,7 @@ SUFFIX = " Curve"
 def write_curve(result: bpy.types.Object) -> bpy.types.Object:
     """Make a curve object of the wires of a medial axis, in its place; the axis is not changed.
 
-    Raises
-    ------
-    InvalidInputError
-        There is no wire, or Blender cannot hold the curve.
+    Raises InvalidInputError where there is no wire, or Blender cannot hold the curve.
     """
     skeleton = _wires_as_skeleton(read_axis(result))
     if not skeleton.count:

@@ -20,17 +20,10 @@ IK = "Medial Axis IK"  # the constraints that were made here
 
 @dataclass(frozen=True)
 class Control:
-    """A bone that deforms nothing, at one end of a bone of a limb.
+    """A bone that deforms nothing, at the tail of a bone of a limb, or else at its head.
 
-    Parameters
-    ----------
-    name : str
-    bone : int
-        The bone of the limb, counted in the rig.
-    at_tail : bool
-        Whether it lies at the tail of that bone, or else at its head.
-    parent : int
-        The bone of the rig on which it hangs; -1 for none.
+    `bone` is the bone of the limb, counted in the rig; `parent` is the bone of the rig on which the control hangs, -1
+    for none.
     """
 
     name: str
@@ -76,15 +69,8 @@ def constrain(
     bones: dict[str, bpy.types.PoseBone],
     kind: LimbControl,
 ) -> None:
-    """Constrain limbs that are free to their controls.
-
-    Parameters
-    ----------
-    source, armature : Object
-    rig : Rig
-    bones : dict of str to PoseBone
-        The bones of the rig and the controls, by the names that they have there.
-    kind : LimbControl
+    """Constrain limbs that are free to their controls; `bones` has those of the rig and the controls, by the names that
+    they have there.
     """
     for limb in rig.limbs:
         controls = [bones[control.name] for control in controls_of(rig, limb, kind)]

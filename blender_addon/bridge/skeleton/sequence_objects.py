@@ -13,14 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-import numpy as np
 
 from ...core.axis.colours import radius_range
 from ...core.errors import InvalidInputError
 from ...core.files.load_axis import load_axis
 from ...core.skeleton.load_skeleton import load_skeleton
 from ..mesh import stored
-from ..mesh.attributes import RADIUS
+from ..mesh.attributes import RADIUS, read_attribute
 from ..mesh.colours import colour_mesh, remember_colours
 from ..mesh.material import dress, radius_material
 from ..mesh.write_mesh import new_axis_mesh
@@ -36,10 +35,7 @@ _NAME = re.compile(r"(.*?)(?:_(-?\d+)|[.-]?(\d+))")  # a minus belongs to a numb
 def sequences(paths: Iterable[Path]) -> list[tuple[str, dict[int, Path]]]:
     """Return (name, {frame: path}) of each sequence among some files; the reports next to them are passed over.
 
-    Raises
-    ------
-    InvalidInputError
-        A name without a number, or another extension.
+    Raises InvalidInputError where a name has no number, or another extension.
     """
     outputs = [path for path in paths if not _is_report(path)]
     for path in outputs:
@@ -61,10 +57,7 @@ def _is_report(path: Path) -> bool:
 def by_frame(paths: Iterable[Path]) -> dict[str, dict[int, Path]]:
     """{name: {frame: path}} of files named as `Body_0012.npz`, frames ascending.
 
-    Raises
-    ------
-    InvalidInputError
-        A name without a number.
+    Raises InvalidInputError where a name has no number.
     """
     found: dict[str, dict[int, Path]] = {}
     for path in paths:
@@ -81,13 +74,8 @@ def by_frame(paths: Iterable[Path]) -> dict[str, dict[int, Path]]:
 def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     """A collection with one object per frame, in place of the one that it was before; all or nothing.
 
-    Each is shown from its frame to the next one's; the first also before, the last also after.
-
-    Parameters
-    ----------
-    name : str
-    files : dict of int to Path
-        Of each frame, ascending: all `.npz` of medial axes, or all `.json` of skeletons.
+    Each is shown from its frame to the next one's; the first also before, the last also after. The files of the frames,
+    ascending, are all `.npz` of medial axes, or all `.json` of skeletons.
     """
     form = next(iter(files.values())).suffix.lower()
     made: list[bpy.types.Object] = []
@@ -149,8 +137,7 @@ def _same_colours(things: list[bpy.types.Object]) -> None:
     start, end = radius_range([lowest, highest])
     for thing in things:
         thing[stored.RADIUS_MIN], thing[stored.RADIUS_MAX] = lowest, highest
-        radii = np.empty(len(thing.data.vertices), np.float32)
-        thing.data.attributes[RADIUS.name].data.foreach_get("value", radii)
+        radii = read_attribute(thing.data.attributes, RADIUS.name, RADIUS.type, RADIUS.domain)
         colour_mesh(thing.data, radii, start, end)
         remember_colours(thing, RADIUS.name, start, end)
 

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Skeletons as curve objects: how they are found, made and updated; parts as an attribute of the source."""
+"""Skeletons as curve objects: how they are found, made and updated; on the source selected ends, and parts as an
+attribute."""
 
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
-from ...core.arrays import Ints, Longs
+from ...core.arrays import Floats, Ints, Longs
+from ...core.curves.spread import groups_of
 from ...core.errors import InvalidInputError
 from ...core.shape.nearness import nearest
 from ...core.shape.shape import Shape
@@ -16,7 +18,7 @@ from ...core.small_matrices import times
 from ..mesh import stored
 from ..mesh.attributes import set_attribute
 from ..mesh.evaluated_rows import only_deforms, row_of_vertices
-from ..mesh.mesh_arrays import read_polygons, read_positions
+from ..mesh.mesh_arrays import read_edges, read_polygons, read_positions
 from ..objects.output_object import Product, check_mode, new_object, place, remember
 from ..objects.read_object import split_transform
 
@@ -34,21 +36,7 @@ is_skeleton, skeleton_of, check_skeleton_writable = (
 def write_skeleton(
     source: bpy.types.Object, found: Skeletonization, frame: np.ndarray
 ) -> bpy.types.Object:
-    """Make the skeleton of a source, or update the existing one, whose bevel and materials stay.
-
-    Parameters
-    ----------
-    source : Object
-        It is not changed.
-    found : Skeletonization
-    frame : (4, 4) float64
-        Where the skeleton lies in the world; rotation and translation only.
-
-    Raises
-    ------
-    InvalidInputError
-        The skeleton cannot be changed now, or Blender cannot hold it.
-    """
+    """Make the skeleton of a source, or update the existing one, whose bevel and materials stay."""
     thing = skeleton_of(source)
     check_mode(thing)
     check_size(found.skeleton)
@@ -119,6 +107,31 @@ def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> Longs:
             return rows
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
     return nearest(times(read_positions(source.data), rest), shape.points)
+
+
+def selected_ends(source: bpy.types.Object, shape: Shape) -> Floats:
+    """Return an end for each connected group of selected vertices, (e, 3): their mean, in the space of the shape.
+
+    Raises InvalidInputError where fewer than two groups are selected, or the source is no mesh.
+    """
+    if source.type != "MESH":
+        raise InvalidInputError(
+            f"Expected a mesh with selected vertices, found '{source.name}', which is none; turn Selected Ends off"
+        )
+    mesh = source.data
+    chosen = np.zeros(len(mesh.vertices), bool)
+    mesh.vertices.foreach_get("select", chosen)
+    rows = np.flatnonzero(chosen)
+    group = groups_of(rows, read_edges(mesh))
+    count = int(group.max(initial=-1)) + 1
+    if count < 2:
+        raise InvalidInputError(
+            f"Expected vertices selected at two or more ends, found {count} connected groups on '{source.name}'; "
+            "select a vertex at each end in Edit Mode"
+        )
+    places = shape.points[rows_of_vertices(source, shape)[rows]]
+    size = np.bincount(group)
+    return np.column_stack([np.bincount(group, places[:, k]) / size for k in range(3)])
 
 
 def check_parts_writable(source: bpy.types.Object) -> None:

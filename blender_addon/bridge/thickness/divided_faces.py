@@ -24,16 +24,10 @@ _CHOSEN, _SELECTED = "ma_divided", "ma_selected"
 
 @dataclass(frozen=True, eq=False)
 class Division:
-    """A step of a subdivision.
+    """A step of a subdivision: some faces of a mesh, (p,) bool, are divided until none of their edges is longer than
+    `longest`.
 
-    Parameters
-    ----------
-    faces : (p,) bool
-        The faces of a mesh that are divided.
-    longest : float
-        Until none of their edges is longer.
-    rest : (3, 3) float64
-        The scale of the object, as of `split_transform`.
+    `rest`, (3, 3), is the scale of the object, as of `split_transform`.
     """
 
     faces: Flags
@@ -45,16 +39,11 @@ class Division:
 def divided(
     source: bpy.types.Object, wanted: Callable[[Shape], tuple[Flags, float]], most: int
 ) -> Iterator[tuple[Division, ...]]:
-    """Give an object a mesh whose faces are divided, in the body of a `with`; yields the steps for `divide`.
+    """Give a mesh object, whose modifiers keep its faces, a mesh whose faces are divided, in the body of a `with`;
+    yields the steps for `divide`.
 
-    Parameters
-    ----------
-    source : Object
-        A mesh whose modifiers keep its faces.
-    wanted : function
-        The triangles of a shape that have to be divided, and how long their edges may be.
-    most : int
-        This many steps are tried.
+    `wanted` gives the triangles of a shape that have to be divided, and how long their edges may be; `most` steps are
+    tried.
     """
     mesh = source.data
     source.data = tried = mesh.copy()
@@ -92,10 +81,7 @@ def _division(source: bpy.types.Object, triangles: Flags, longest: float) -> Div
 def divide(mesh: bpy.types.Mesh, step: Division) -> None:
     """Divide faces of a mesh in object mode; others that share a divided edge get its vertices.
 
-    Raises
-    ------
-    InvalidInputError
-        The mesh has another number of faces than the step is for.
+    Raises InvalidInputError where the mesh has another number of faces than the step is for.
     """
     if len(mesh.polygons) != len(step.faces):
         raise InvalidInputError(

@@ -16,10 +16,7 @@ from .thin_selection import in_object_mode
 def select_inward(thing: bpy.types.Object) -> int:
     """Select the faces of a mesh that look inward, and nothing else; returns how many there are.
 
-    Raises
-    ------
-    InvalidInputError
-        A coordinate is not finite.
+    Raises InvalidInputError where a coordinate is not finite.
     """
     with in_object_mode(thing):
         wanted = inward_polygons(thing.data)
@@ -30,10 +27,7 @@ def select_inward(thing: bpy.types.Object) -> int:
 def turn_inward(thing: bpy.types.Object) -> int:
     """Turn the faces of a mesh that look inward; returns how many there were.
 
-    Raises
-    ------
-    InvalidInputError
-        A coordinate is not finite.
+    Raises InvalidInputError where a coordinate is not finite.
     """
     with in_object_mode(thing):
         rows = np.flatnonzero(inward_polygons(thing.data)).tolist()

@@ -42,10 +42,7 @@ def check_thickenable(source: bpy.types.Object) -> None:
 def reserve_moves(source: bpy.types.Object) -> None:
     """Give a mesh the attribute of its moves where it has none, so that nothing else fails after its faces are divided.
 
-    Raises
-    ------
-    InvalidInputError
-        Something else has its name.
+    Raises InvalidInputError where something else has its name.
     """
     if thicken_modifier(source) is None:
         none = np.zeros(3 * len(source.data.vertices), np.float32)
@@ -53,13 +50,8 @@ def reserve_moves(source: bpy.types.Object) -> None:
 
 
 def write_moves(source: bpy.types.Object, moves: Floats) -> None:
-    """Give a source the moves, on top of those that its modifier applies already.
-
-    Parameters
-    ----------
-    source : Object
-    moves : (v, 3) float64
-        In the frame of its shape, where its scale is applied.
+    """Give a source the moves, (v, 3) in the frame of its shape, where its scale is applied, on top of those that its
+    modifier applies already.
     """
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
     local = times(moves, inverse(rest))

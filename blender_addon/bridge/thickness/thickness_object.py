@@ -69,14 +69,8 @@ def write_thickness(
 ) -> bpy.types.Object:
     """Write what was measured; returns the carrier.
 
-    Parameters
-    ----------
-    source : Object
-        Gets the attributes where its own vertices and faces were measured.
-    found : Measurement
-    parts : ThinParts
-    frame : (4, 4) float64
-        Where the shape lies in the world.
+    The source gets the attributes where its own vertices and faces were measured. `frame`, (4, 4), is where the shape
+    lies in the world.
     """
     own = _has_own(source, found) and keeps_rows(source)
     if own:

@@ -12,7 +12,7 @@ import numpy as np
 from ...core.arrays import Flags, Floats
 from ...core.machine.native import own_errors
 from ..mesh import stored
-from ..mesh.attributes import read_vectors
+from ..mesh.attributes import read_attribute, read_vectors
 from ..mesh.mesh_arrays import read_loop_triangles, select_faces
 from .thickness_object import THIN
 
@@ -41,15 +41,11 @@ def least_of(carrier: bpy.types.Object) -> tuple[tuple[float, ...], float]:
 
 
 def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) -> int:
-    """Select the thin faces of a mesh and nothing else; returns how many there are.
+    """Select the thin faces of a mesh with `ma_thin`, in object or edit mode, and nothing else; returns how many there
+    are.
 
-    Parameters
-    ----------
-    thing : Object
-        In object or edit mode, with `ma_thin`.
-    near : tuple of 3 float, optional
-        Only those that are connected to the thin face next to this place, in the object's own frame; where no face
-        is thin, that face alone which is next to it.
+    Near a place, in the object's own frame, these are only those that are connected to the thin face next to it; where
+    no face is thin, that face alone which is next to it.
     """
     with in_object_mode(thing):
         mesh = thing.data
@@ -61,11 +57,8 @@ def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) 
 
 
 def _thin(mesh: bpy.types.Mesh) -> Flags:
-    found = mesh.attributes.get(THIN)
-    flags = np.zeros(len(mesh.polygons), bool)
-    if found is not None and (found.domain, found.data_type) == ("FACE", "BOOLEAN"):
-        found.data.foreach_get("value", flags)
-    return flags
+    flags = read_attribute(mesh.attributes, THIN, "BOOLEAN", "FACE")
+    return np.zeros(len(mesh.polygons), bool) if flags is None else flags
 
 
 def _connected(mesh: bpy.types.Mesh, thin: Flags, near: Floats) -> Flags:

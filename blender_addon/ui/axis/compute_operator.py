@@ -3,6 +3,7 @@
 they run in one go."""
 
 import time
+from dataclasses import dataclass
 from functools import partial
 
 import bpy
@@ -14,6 +15,7 @@ from ...bridge.objects.step_back import seen
 from ...core.errors import Cancelled, MedialAxisError
 from ...core.machine.job import Task, run_task
 from ...core.settings import OPTIONS
+from ...core.shape.shape import Shape
 from ..base import current_job
 from ..base.plain_words import told, warned
 from ..base.select_made import select_made
@@ -47,6 +49,17 @@ class Alone:
     )
 
 
+@dataclass(frozen=True)
+class Read:
+    """A shape, and what else was read of its object for `work`; the base of what operators add."""
+
+    shape: Shape
+
+    @property
+    def frame(self):
+        return self.shape.frame
+
+
 class ComputeOperator(FromSelection, WatchedJob):
     """An operator that computes one object of each source; the base of those that are registered.
 
@@ -62,6 +75,8 @@ class ComputeOperator(FromSelection, WatchedJob):
     In a script the result is selected afterwards, as with Blender's own operators. In a window the source stays
     selected, because the outline of a selected result hides the result.
     """
+
+    bl_options = {"REGISTER", "UNDO"}
 
     product = ""
     alone = False  # a property, where the product fills the place of what it is made of

@@ -88,12 +88,7 @@ def draw_details(context, layout, result):
             "Time": f"{result.get(stored.SECONDS, 0.0):.2f} s",
         },
     )
-    sentences = (
-        stored.TOPOLOGY,
-        stored.SAMPLED,
-        stored.DENSITY,
-        stored.INSIDE,
-    )
+    sentences = (stored.TOPOLOGY, stored.SAMPLED, stored.DENSITY, stored.INSIDE)
     for name in (*sentences, stored.SOURCE_MESH, stored.PLACES):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")

@@ -10,6 +10,7 @@ from ...core.errors import MedialAxisError
 from ...core.files.read import import_points
 from ..base.paths import RELATIVE, chosen_files
 from ..base.plain_words import told
+from ..base.select_made import select_made
 from ..base.translation import say
 
 
@@ -47,7 +48,9 @@ class ImportPoints(ImportHelper):
         # Blender itself moves one of the two axes when both are set to the same
         turn = axis_conversion(from_forward=self.axis_forward, from_up=self.axis_up)
         made = [thing for path in chosen_files(self) if (thing := self._import(path, turn))]
-        _select(context, made)
+        if made and bpy.ops.object.mode_set.poll():
+            bpy.ops.object.mode_set(mode="OBJECT")
+        select_made(context, made[::-1])  # the last is active, as in Blender's importers
         return {"FINISHED"} if made else {"CANCELLED"}
 
     def _import(self, path, turn):
@@ -85,21 +88,6 @@ class IMPORT_MESH_OT_points_off(ImportPoints, bpy.types.Operator):
 
     filename_ext = ".off"
     filter_glob: StringProperty(default="*.off", options={"HIDDEN"})
-
-
-def _select(context, made):
-    """Select what was made and nothing else; the last is active, as in Blender's importers."""
-    if not made:
-        return
-    if bpy.ops.object.mode_set.poll():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    context.view_layer.update()
-    for thing in context.selected_objects:
-        thing.select_set(False)
-    shown = [thing for thing in made if thing.name in context.view_layer.objects]
-    for thing in shown:  # not in a collection that the view layer excludes
-        thing.select_set(True)
-        context.view_layer.objects.active = thing
 
 
 def menu_func_import(self: bpy.types.Menu, context: bpy.types.Context) -> None:

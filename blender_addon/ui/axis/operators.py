@@ -133,7 +133,6 @@ class OBJECT_OT_medial_axis_sampling_report(SampledOperator, bpy.types.Operator)
         "Show how densely the selected objects are sampled for their shape: the samples as a mesh, "
         "coloured by epsilon"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "report"
 
@@ -186,10 +185,10 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
         "Make a watertight surface through the points of the selected objects; "
         "faces and normals are not used"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "surface"
     check_writable = staticmethod(check_surface_writable)
+    write = staticmethod(write_surface)
 
     parent: prop(LOOKS["parent"])
 
@@ -198,9 +197,6 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
 
     def work(self, shape):
         return partial(reconstruct, shape.points, limit=memory_limit())
-
-    def write(self, thing, found, frame):
-        return write_surface(thing, found, frame)
 
     def summary(self, found):
         return f"{len(found.triangles):,} triangles"

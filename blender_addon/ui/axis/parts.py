@@ -7,7 +7,7 @@ from ...bridge.axis.axis_object import is_result, result_of
 from ...bridge.axis.parts_objects import part_of_active_face, select_part, separate_parts
 from ...bridge.axis.structure_object import counts_on
 from ...bridge.mesh import stored
-from ...bridge.mesh.attributes import PART, has_attribute
+from ...bridge.mesh.attributes import PART
 from ...bridge.objects.output_object import is_gone
 from ...core.settings import Form
 from ..base.plain_words import Needing, Telling
@@ -34,7 +34,7 @@ def _axis(context):
     if is_gone(active):
         return None
     found = active if is_result(active) else result_of(active)
-    return found if found is not None and has_attribute(found.data, PART.name) else None
+    return found if found is not None and PART.name in found.data.attributes else None
 
 
 class _OfParts(Needing):

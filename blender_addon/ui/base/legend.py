@@ -37,13 +37,8 @@ def draw_legend(layout, start, end, turned=False):
 def draw_thickness_legend(layout, scale, shares, texts):
     """Bars of how much of the surface has which colour, thin on the left, over the scale with an edge at the limit.
 
-    Parameters
-    ----------
-    scale : ThicknessScale
-    shares : sequence of float
-        One for each step.
-    texts : tuple of 3 str
-        What is said below the left end, the limit and the right end; "" for nothing.
+    `shares` has a number for each step of the scale; `texts` are what is said below the left end, the limit and the
+    right end, "" for nothing.
     """
     column = layout.column(align=True)
     bars, steps = column.row(align=True), column.row(align=True)

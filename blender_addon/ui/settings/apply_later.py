@@ -30,13 +30,8 @@ _applied = set()  # (name of the result, settings) of updates whose meshes are i
 
 
 def needs_thread(result, levels_stay):
-    """Whether an update of this result takes longer than a moment.
-
-    Parameters
-    ----------
-    result : Object
-    levels_stay : bool
-        The settings choose among the levels of the same hierarchy.
+    """Whether an update of this result takes longer than a moment; `levels_stay` where the settings choose among the
+    levels of the same hierarchy.
     """
     if bpy.app.background or not bpy.context.window_manager.windows:
         return False

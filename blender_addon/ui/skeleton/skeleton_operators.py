@@ -22,10 +22,10 @@ from ...bridge.skeleton.bind_armature import (
     check_bindable,
     groups_of_others,
 )
-from ...bridge.skeleton.selected_ends import selected_ends
 from ...bridge.skeleton.skeleton_object import (
     check_parts_writable,
     check_skeleton_writable,
+    selected_ends,
     write_parts,
     write_skeleton,
 )
@@ -38,9 +38,8 @@ from ...core.settings import (
     LimbControl,
     SkeletonSettings,
 )
-from ...core.shape.shape import Shape
 from ...core.skeleton.compute import compute_skeleton
-from ..axis.compute_operator import SampledOperator
+from ..axis.compute_operator import Read, SampledOperator
 from ..base.translation import say
 from ..settings.preferences import memory_limit
 from ..settings.properties import (
@@ -63,16 +62,11 @@ class SkeletonProperties:
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _Wanted(Read):
     """A shape, the ends on it that are kept, and the settings of the curve that is shown of it, if there are any."""
 
-    shape: Shape
     ends: object
     shown: object
-
-    @property
-    def frame(self):
-        return self.shape.frame
 
 
 class SkeletonOperator(SampledOperator, SkeletonProperties):
@@ -123,7 +117,6 @@ class OBJECT_OT_medial_axis_skeleton(SkeletonOperator, bpy.types.Operator):
     bl_description = (
         "Make a curve along the middle of the selected objects, with the radius at every point"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "skeleton"
     shown = (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent")
@@ -161,7 +154,6 @@ class OBJECT_OT_medial_axis_armature(SkeletonOperator, ArmatureProperties, bpy.t
     bl_description = (
         "Make few bones along the skeleton of the selected objects, and bind these to them"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "armature"
     parent = False  # the object follows its bones

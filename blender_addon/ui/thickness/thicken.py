@@ -21,22 +21,17 @@ from ...core.samples.density import share_text
 from ...core.settings import LOOKS, THICKEN_OPTIONS, Moving, ThickenSettings
 from ...core.thickness.thicken import Thickened, thicken
 from ...core.thickness.thin_in_part import DIVISIONS, faces_to_divide
-from ..axis.compute_operator import SampledOperator
+from ..axis.compute_operator import Read, SampledOperator
 from ..settings.preferences import memory_limit
 from ..settings.properties import prop, settings_from, with_options
 
 
 @dataclass(frozen=True)
-class _Walls:
+class _Walls(Read):
     """A shape, which of its triangles are selected, and how the faces of the mesh were divided for it."""
 
-    shape: object
     selected: object
     divisions: tuple[Division, ...]
-
-    @property
-    def frame(self):
-        return self.shape.frame
 
 
 @dataclass(frozen=True)
@@ -61,18 +56,13 @@ def _thickened(walls, settings, wanted, limit, progress):
 
 
 @with_options(THICKEN_OPTIONS)
-class ThickenProperties:
-    """The options of thicker walls."""
-
-
-class OBJECT_OT_medial_axis_thicken(SampledOperator, ThickenProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_thicken(SampledOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_thicken"
     bl_label = "Thicken to the Limit"
     bl_description = (
         "Move walls that are thinner than the limit apart until they are as thick, by a modifier that keeps the mesh, "
         "and measure them again"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def description(cls, _context, properties):

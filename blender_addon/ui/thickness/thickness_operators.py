@@ -7,7 +7,6 @@ import bpy
 from mathutils import Vector
 
 from ...bridge.mesh import stored
-from ...bridge.mesh.attributes import has_attribute
 from ...bridge.objects.output_object import is_gone, source_of
 from ...bridge.thickness.heat_map import show_thickness
 from ...bridge.thickness.thickness_object import (
@@ -26,18 +25,18 @@ from ..base.show import show_colours, shows_colours
 from ..base.translation import say
 from ..base.view_place import edit_faces, show_place, viewport_of
 from ..settings.preferences import memory_limit
-from ..settings.properties import prop, settings_from
-from .thickness_properties import ThicknessProperties, shown_thickness
+from ..settings.properties import prop, settings_from, with_options
+from .thickness_properties import shown_thickness
 
 
-class OBJECT_OT_medial_axis_thickness(SampledOperator, ThicknessProperties, bpy.types.Operator):
+@with_options(THICKNESS_OPTIONS)
+class OBJECT_OT_medial_axis_thickness(SampledOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_thickness"
     bl_label = "Measure Thickness"
     bl_description = (
         "Measure how thick the selected objects are, or how wide their gaps, and show where they are "
         "thinner than the limit"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     product = "thickness"
     check_writable = staticmethod(check_thickness_writable)
@@ -147,4 +146,4 @@ def _selected_on(context, carrier):
     active = context.object
     source = source_of(carrier) if is_copy(carrier) else carrier
     on_source = active == source and not is_gone(source) and source.type == "MESH"
-    return source if on_source and has_attribute(source.data, THIN) else carrier
+    return source if on_source and THIN in source.data.attributes else carrier

@@ -43,11 +43,6 @@ def _is_edited(carrier) -> bool:
     return carrier.mode == "EDIT" or (not is_gone(source) and source.mode == "EDIT")
 
 
-@with_options(THICKNESS_OPTIONS)
-class ThicknessProperties:
-    """The options of thickness, for the operator."""
-
-
 @with_options({name: THICKNESS_OPTIONS[name] for name in ("limit", "minimum_patch")}, _apply_limit)
 @with_options(THICKNESS_OPTIONS)
 class MedialAxisThicknessSettings(bpy.types.PropertyGroup):

@@ -13,6 +13,7 @@ import sys
 import threading
 import time
 import traceback
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -20,7 +21,9 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, link, medial_objects, select
+from installed import addon
+from measure import analyses, medial_objects, positions
+from scene import added, link, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
@@ -427,14 +430,12 @@ def edit_mode_waits():
     yield from stays_without_job(1.5)
     assert followed() == first
     yield from key("Tab")
-    yield lambda: followed() > 1.5 * first
-    yield no_job
+    yield lambda: followed() > 1.5 * first and no_job()
     yield from look_after(0.7, "edited")
     assert not changed_since()
     for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
         yield from key(stroke)
-    yield lambda: abs(followed() - first) < 1e-3
-    yield no_job
+    yield lambda: abs(followed() - first) < 1e-3 and no_job()
     assert bpy.context.object.mode == "OBJECT" and not changed_since()
 
 
@@ -443,18 +444,15 @@ def undo_is_followed():
     first, things = followed(), len(bpy.data.objects)
     yield from key("s")
     xdotool("key", "x", "2", "Return")
-    yield lambda: followed() > 1.5 * first
-    yield no_job
+    yield lambda: followed() > 1.5 * first and no_job()
     for _ in range(2):
         yield from key("ctrl+z")
         assert bpy.context.object.scale.x == 1.0, "one stroke takes back one step"
-        yield lambda: abs(followed() - first) < 1e-3
-        yield no_job
+        yield lambda: abs(followed() - first) < 1e-3 and no_job()
         yield from look_after(1.0, "undone")
         yield from key("ctrl+shift+z")
         assert bpy.context.object.scale.x == 2.0, "redo must know the step after an update"
-        yield lambda: followed() > 1.5 * first
-        yield no_job
+        yield lambda: followed() > 1.5 * first and no_job()
     assert len(bpy.data.objects) == things and not changed_since()
     yield from look_after(1.0, "redone")
 
@@ -496,8 +494,7 @@ def files_keep_it():
     yield from stays_without_job(2.0)
     assert live_result().medial_axis_auto_update and not changed_since()
     bpy.context.object.scale.x = 3.0
-    yield lambda: followed() > 1.2 * first
-    yield no_job
+    yield lambda: followed() > 1.2 * first and no_job()
 
 
 def disabled_while_it_waits():
@@ -511,8 +508,7 @@ def disabled_while_it_waits():
     assert followed() == first and threads() == []
     assert len(bpy.app.handlers.depsgraph_update_post) == len(before) - 1
     bpy.ops.preferences.addon_enable(module=module)
-    yield lambda: followed() < 0.7 * first
-    yield no_job
+    yield lambda: followed() < 0.7 * first and no_job()
 
 
 def deleted_source_ends_it():
@@ -532,13 +528,7 @@ def live_result():
 
 def followed():
     """How wide the result is in X."""
-    return float(np.ptp(positions_of(live_result())[:, 0]))
-
-
-def positions_of(thing):
-    found = np.empty(3 * len(thing.data.vertices), np.float32)
-    thing.data.vertices.foreach_get("co", found)
-    return found.reshape(-1, 3)
+    return float(np.ptp(positions(live_result().data)[:, 0]))
 
 
 def changed_since():
@@ -601,20 +591,10 @@ def text():
     return thing
 
 
-def added(operator):
-    """A function that makes an object by one of Blender's operators."""
-
-    def make():
-        getattr(bpy.ops.mesh, f"primitive_{operator}_add")()
-        return bpy.context.object
-
-    return make
-
-
 MODELS = {
-    "cube": added("cube"),
-    "torus": added("torus"),
-    "suzanne": added("monkey"),
+    "cube": partial(added, "cube"),
+    "torus": partial(added, "torus"),
+    "suzanne": partial(added, "monkey"),
     "text": text,
     "hand": data("hand_closed.obj"),
     "dilo": data("dilo.off"),
@@ -773,19 +753,6 @@ def scene_what_comes_after():
     with bpy.context.temp_override(window=window(), area=viewport(), object=source):
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield from look_after(1.5, "9-nodes")
-
-
-def measured(limit):
-    """Measure the thickness of the active object by the panel."""
-    source = bpy.context.object
-    bpy.context.scene.medial_axis_thickness.limit = limit
-    yield from open_tab()
-    yield from fold(THICKNESS)
-    yield from pressed(
-        MEASURE_THICKNESS,
-        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
-    )
-    yield patience(1.0)
 
 
 def until(condition):
