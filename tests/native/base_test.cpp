@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "base/double_double.h"
 #include "base/oriented_box.h"
 #include "base/parallel.h"
 #include "base/point_tree.h"
@@ -149,6 +150,15 @@ TEST(PolygonEdges, AreThoseOfTheCorners) {
 
 // The corners of a thin plate, with normals that are rounding or lie along the longest way: the
 // axes are at right angles, and the box holds its points.
+TEST(DoubleDouble, KeepsTwiceTheDigits) {
+  const DoubleDouble near_one = DoubleDouble(1) + DoubleDouble(0x1p-80);
+  const DoubleDouble squared = near_one * near_one - DoubleDouble(1);
+  EXPECT_EQ(squared.high, 0x1p-79);
+  const double third = 1.0 / 3;
+  const DoubleDouble off = product(third, 3) - DoubleDouble(1);
+  EXPECT_EQ(off.high, -0x1p-54);
+}
+
 TEST(OrientedBox, HoldsPointsWhateverTheNormal) {
   std::mt19937 random(7);
   const auto corner = [&](int k) {

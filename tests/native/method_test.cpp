@@ -537,6 +537,26 @@ TEST(Method, AVoronoiVertexInTheTangentPlaneCountsAsAbove) {
   }
 }
 
+// Doubles do not tell on which side of a sphere the other points of a turned lattice lie; twice
+// their digits do.
+TEST(Method, SpheresOfATurnedLatticeAreEmpty) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    const double c = std::cos(seed), s = std::sin(seed);
+    std::vector<Vec3> points;
+    for (const GridPoint& p : lattice(4)) {
+      const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+      const double across = s * x + c * y, z = static_cast<double>(p.z);
+      points.push_back({c * x - s * y, c * across - s * z, s * across + c * z});
+    }
+    const Cloud cloud = rounded(points, 0x1p-50);
+    const std::vector<GridPoint>& p = cloud.points;
+    for (const Ids& i : library_cells(cloud.rows())) {
+      for (const GridPoint& q : p)
+        EXPECT_LE(test::in_sphere<test::Integer>(p[i[0]], p[i[1]], p[i[2]], p[i[3]], q), 0);
+    }
+  }
+}
+
 // Samples of a sphere are cospherical up to the rounding of their coordinates: all cells have one
 // Voronoi vertex, and no facet has an area.
 TEST(Method, SamplesOfASphereHaveNoFacets) {

@@ -68,13 +68,14 @@ inline Wide orientation(const GridPoint& a, const GridPoint& b, const GridPoint&
 }
 
 // Above 0: e lies inside of the sphere through four points, 0: on it. Any orientation.
-inline int in_sphere(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d,
-                     const GridPoint& e) {
-  const auto u = to<Wide>(a - d), v = to<Wide>(b - d), w = to<Wide>(c - d), q = to<Wide>(e - d);
-  const Wide volume = dot(u, cross(v, w));
-  const Wide lifted = dot(u, u) * dot(q, cross(v, w)) + dot(v, v) * dot(q, cross(w, u)) +
-                      dot(w, w) * dot(q, cross(u, v));
-  const Wide value = lifted - dot(q, q) * volume;
+template <typename T = Wide>
+int in_sphere(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d,
+              const GridPoint& e) {
+  const auto u = to<T>(a - d), v = to<T>(b - d), w = to<T>(c - d), q = to<T>(e - d);
+  const T volume = dot(u, cross(v, w));
+  const T lifted = dot(u, u) * dot(q, cross(v, w)) + dot(v, v) * dot(q, cross(w, u)) +
+                   dot(w, w) * dot(q, cross(u, v));
+  const T value = lifted - dot(q, q) * volume;
   return (value > 0) - (value < 0) == 0 ? 0 : ((value > 0) == (volume > 0) ? 1 : -1);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module has in common for all writers: formats by extension, whole files, and rows of numbers as text or PLY."""
+"""All writers share this: formats by extension, whole files, and rows of numbers as text or PLY."""
 
 from __future__ import annotations
 
