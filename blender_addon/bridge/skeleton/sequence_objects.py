@@ -11,13 +11,16 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import bpy
 
 from ...core.axis.colours import radius_range
+from ...core.axis.medial_axis import MedialAxis
 from ...core.errors import InvalidInputError
 from ...core.files.load_axis import load_axis
 from ...core.skeleton.load_skeleton import load_skeleton
+from ...core.skeleton.skeleton import Skeleton
 from ..mesh import stored
 from ..mesh.attributes import RADIUS, read_attribute
 from ..mesh.colours import colour_mesh, remember_colours
@@ -78,10 +81,11 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     ascending, are all `.npz` of medial axes, or all `.json` of skeletons.
     """
     form = next(iter(files.values())).suffix.lower()
+    loaded = [_KINDS[form].load(path) for path in files.values()]  # a broken file leaves nothing
     made: list[bpy.types.Object] = []
     try:
-        for frame, path in files.items():
-            made.append(_KINDS[form].load(f"{name} {frame:04d}", path))
+        for frame, found in zip(files, loaded, strict=True):
+            made.append(_KINDS[form].make(f"{name} {frame:04d}", found))
             made[-1][stored.SEQUENCE_FRAME] = frame
     except BaseException:
         _remove(made)
@@ -100,8 +104,7 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     return collection
 
 
-def _new_axis(name: str, path: Path) -> bpy.types.Object:
-    axis = load_axis(path)
+def _new_axis(name: str, axis: MedialAxis) -> bpy.types.Object:
     thing = bpy.data.objects.new(name, new_axis_mesh(axis, name))
     dress(thing, radius_material())
     thing.show_in_front = True
@@ -113,9 +116,13 @@ def _new_axis(name: str, path: Path) -> bpy.types.Object:
     return thing
 
 
-def _new_skeleton(name: str, path: Path) -> bpy.types.Object:
+def _load_skeleton(path: Path) -> Skeleton:
     skeleton = load_skeleton(path)
     check_size(skeleton)
+    return skeleton
+
+
+def _new_skeleton(name: str, skeleton: Skeleton) -> bpy.types.Object:
     curve = new_curve(name)
     fill_curve(curve, skeleton)
     thing = bpy.data.objects.new(name, curve)
@@ -171,14 +178,15 @@ def _remove(things: list[bpy.types.Object]) -> None:
 
 @dataclass(frozen=True)
 class _Kind:
-    """The kind of the files of a sequence: the end of its collection's name, and how objects are made of them."""
+    """The kind of the files of a sequence: the end of its collection's name, and how they are read and made objects."""
 
     suffix: str
-    load: Callable[[str, Path], bpy.types.Object]
+    load: Callable[[Path], Any]
+    make: Callable[[str, Any], bpy.types.Object]
     finish: Callable[[list[bpy.types.Object]], None] = lambda _: None
 
 
 _KINDS = {
-    AXES: _Kind(" Medial Axis Sequence", _new_axis, _same_colours),
-    SKELETONS: _Kind(" Skeleton Sequence", _new_skeleton),
+    AXES: _Kind(" Medial Axis Sequence", load_axis, _new_axis, _same_colours),
+    SKELETONS: _Kind(" Skeleton Sequence", _load_skeleton, _new_skeleton),
 }
