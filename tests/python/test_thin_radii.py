@@ -34,10 +34,8 @@ def _wire_in_bar(medial, sides, wide, form, away=0.0):
     return np.hypot(x, y)[bar] / wide, axis.radius[row[bar]] / wide
 
 
-@pytest.mark.parametrize(
-    ("sides", "wide", "away"),
-    [(3, 0.01, 1e5), (4, 0.01, 0.0), (4, 0.04, 1e5), (6, 0.1, 1e5), (8, 0.005, 0.0)],
-)
+@pytest.mark.parametrize("away", [0.0, 1e5])
+@pytest.mark.parametrize(("sides", "wide"), [(4, 0.01), (4, 0.04), (8, 0.005), (3, 0.01), (6, 0.1)])
 @pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
 def test_a_curve_stands_in_the_middle_of_a_bar(medial, sides, wide, form, away):
     """Between thick ends it had down to 0.65 of the radius, half of it off the middle."""
