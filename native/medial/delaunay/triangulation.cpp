@@ -24,8 +24,8 @@ using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Epick::Point_3;
 
 // The samples of flat faces are as good as cospherical wherever the faces are turned, and CGAL's
-// exact numbers took half of the time of such a triangulation. Twice the digits of double tell
-// nearly all of these spheres; the exact numbers are asked for the others.
+// exact numbers took nearly half of the time of the axis of a turned box. Twice the digits of
+// double tell nearly all of these spheres; the exact numbers are asked for the others.
 struct InTwiceTheDigits : Epick {
   struct Side_of_oriented_sphere_3 {
     CGAL::Oriented_side operator()(const Point& p, const Point& q, const Point& r, const Point& s,
