@@ -336,6 +336,16 @@ TEST(Remesh, APlaneSheetBecomesEvenAndKeepsItsArea) {
   EXPECT_LT(count, 2 * 40 * 40 / 8);
 }
 
+TEST(Remesh, NoTriangleKeepsItsSideAtAPlaceThatIsNoNumber) {
+  EvenMesh even = plane_sheet(2);
+  const int32_t corner = 2, beside = 1, other = 5;  // the corners of a triangle alone at its corner
+  EXPECT_TRUE(keeps_sides(even, corner, even.position[corner]));
+  EXPECT_FALSE(keeps_sides(even, corner, {NAN, NAN, NAN}));
+  even.position[other] = even.position[beside];  // now it has no area
+  EXPECT_TRUE(keeps_sides(even, corner, even.position[corner]));
+  EXPECT_FALSE(keeps_sides(even, corner, {NAN, NAN, NAN}));
+}
+
 TEST(Remesh, WhatIsOnePlaceIsMergedAndTurnsNothingOver) {
   EvenMesh even = plane_sheet(40);
   merge_close(even, std::vector<double>(even.position.size(), 1.5 / 40));

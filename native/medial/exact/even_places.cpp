@@ -375,6 +375,7 @@ bool EvenPlaces::slide() {
   went_back_.resize(e_.position.size(), 0);
   double most = 0;
   for (const int32_t v : rims) {
+    if (std::isnan(step[v])) continue;  // no step is known near it
     const double limit = kMostSlide * e_.target[v];
     const double back = std::clamp(hole_at(v) - went_back_[v], 0.0, limit);
     const double now = std::clamp(step[v], -back, limit);

@@ -29,7 +29,7 @@ Plane plane_of(const Places& p) {
   const double area = length(across);
   const double longest = std::max(
       {squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[2] - p[1])});
-  return area > 0 ? Plane{(1 / area) * across, area / longest} : Plane{};
+  return area == 0 ? Plane{} : Plane{(1 / area) * across, area / longest};
 }
 
 Places places_of(const EvenMesh& even, const Triangle& t) {
