@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces that pass through each other: which pairs, against a test in floating point, and what is said of them."""
 
+from fractions import Fraction
+from itertools import combinations
+
 import numpy as np
 import pytest
 from medial_axis import library
@@ -90,3 +93,43 @@ def test_a_rope_beside_itself_is_right():
     points, triangles = rope(0.25)
     found = library.compute(points, triangles, side="inner")
     assert found.topology == "1 piece, no loop, no cavity, as the solid" and not found.warnings
+
+
+def side_of(a, b, c, d):
+    """The side of the plane through a, b and c on which d lies, of exact fractions."""
+    u, v, w = (np.array([Fraction(x) for x in p]) - [Fraction(x) for x in a] for p in (b, c, d))
+    found = (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        - u[1] * (v[0] * w[2] - v[2] * w[0])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+    return (found > 0) - (found < 0)
+
+
+def pierces(p, q, corners):
+    side = side_of(*corners, p)
+    if side == 0 or side_of(*corners, q) != -side:
+        return False
+    turns = {side_of(p, q, corners[i], corners[(i + 1) % 3]) for i in range(3)}
+    return len(turns) == 1 and 0 not in turns
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-16, 1e-15], ids=["coplanar", "rounded", "farther"])
+def test_triangles_of_nearly_one_plane_are_told_exactly(off):
+    """Corners on a coarse grid, in a plane that is turned exactly, or where only the last digits decide."""
+    rng = np.random.default_rng(5)
+    x, y = rng.integers(-30, 31, (2, 120)) / 32.0
+    points = np.column_stack((x, y, (3 * x - 2 * y) / 4)) + off * rng.integers(-2, 3, (120, 3))
+    corners = points.reshape(-1, 3, 3)
+    expected = [
+        (i, j)
+        for i, j in combinations(range(len(corners)), 2)
+        if any(
+            pierces(one[k], one[(k + 1) % 3], other)
+            for one, other in ((corners[i], corners[j]), (corners[j], corners[i]))
+            for k in range(3)
+        )
+    ]
+    found = crossing(points, np.arange(120).reshape(-1, 3))
+    assert list(map(tuple, found.tolist())) == expected
+    assert bool(expected) == bool(off)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Warnings about a solid as its samples show it, which its axis and its skeleton share; a sentence each."""
+"""Warnings about a solid as its samples show it, which all results share; a sentence each."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def solid_warnings(
     side: Side,
     sides: SidesFrom,
     chosen: ChosenSamples,
-    betti: tuple[int, int, int] | None,
+    betti: tuple[int, int, int] | None = None,
 ) -> Iterator[str]:
     """Warn about the samples, about what was taken for inside, and where the faces have another topology.
 

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints
 from ..axis.levels import hierarchy_of
 from ..axis.medial_axis import no_edges
+from ..axis.solid_warnings import solid_warnings
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
-from ..samples.sampling_warnings import sampling_warnings
 from ..settings import (
     MOST_REFINED,
     BallSettings,
@@ -175,7 +175,7 @@ def cover_by_balls(
         shares=shares,
         places=places,
         chosen=chosen,
-        warnings=tuple(sampling_warnings(shape, chosen)),
+        warnings=tuple(solid_warnings(shape, Side.INNER, chosen.sides.source, chosen)),
         seconds=begun.seconds,
     )
 

@@ -10,6 +10,7 @@ from dataclasses import astuple, replace
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
+from ..axis.solid_warnings import solid_warnings
 from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -18,7 +19,6 @@ from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.noise import noise_of
-from ..samples.sampling_warnings import sampling_warnings
 from ..samples.sides import resolve_sides
 from ..samples.surface_normals import (
     SurfaceNormals,
@@ -160,7 +160,13 @@ def _by_axis(
         ),
     )
     found = _up_to_faces(found)
-    return replace(found, warnings=(*sampling_warnings(shape, chosen), *_warnings(found)))
+    return replace(
+        found,
+        warnings=(
+            *solid_warnings(shape, wanted.side, chosen.sides.source, chosen),
+            *_warnings(found),
+        ),
+    )
 
 
 def _up_to_faces(found: Measurement) -> Measurement:

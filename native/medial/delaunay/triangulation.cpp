@@ -3,70 +3,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "base/cgal.h"
-#include "base/double_double.h"
 #include "base/sort.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 // clang-format on
+#include "base/filtered_kernel.h"
 #include "base/insertion_order.h"
 
 namespace medial {
 namespace {
 
-using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Epick::Point_3;
-
-// The samples of flat faces are as good as cospherical wherever the faces are turned, and CGAL's
-// exact numbers took nearly half of the time of the axis of a turned box. Twice the digits of
-// double tell nearly all of these spheres; the exact numbers are asked for the others.
-struct InTwiceTheDigits : Epick {
-  struct Side_of_oriented_sphere_3 {
-    CGAL::Oriented_side operator()(const Point& p, const Point& q, const Point& r, const Point& s,
-                                   const Point& t) const {
-      // derived: CGAL's bound for doubles, 1.25e-13, by 2^-100 / 2^-53
-      constexpr double kError = 8.9e-28;
-      constexpr double kLeast = 1e-250;  // derived: below it parts of products underflow
-      const auto [x, size] = determinant({p, r, q, s}, t);
-      const double bound = kError * size;
-      if (!(bound > kLeast && std::abs(x) > bound))
-        return Epick::Side_of_oriented_sphere_3()(p, q, r, s, t);
-      return x > 0 ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
-    }
-  };
-
-  // Returns the determinant of the differences to a point and their squares, and the largest
-  // difference along each axis, multiplied, and by the square of the largest of all.
-  static std::pair<double, double> determinant(const std::array<Point, 4>& points, const Point& t) {
-    std::array<std::array<DoubleDouble, 4>, 4> m;
-    std::array<double, 3> most{};
-    for (int i = 0; i < 4; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        m[i][axis] = DoubleDouble(points[i][axis]) - DoubleDouble(t[axis]);
-        most[axis] = std::max(most[axis], std::abs(m[i][axis].high));
-        m[i][3] = m[i][3] + m[i][axis] * m[i][axis];
-      }
-    }
-    const double largest = std::max({most[0], most[1], most[2]});
-    const auto& [a, b, c, d] = m;
-    const DoubleDouble found = CGAL::determinant(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3],
-                                                 c[0], c[1], c[2], c[3], d[0], d[1], d[2], d[3]);
-    return {found.high, most[0] * most[1] * most[2] * largest * largest};
-  }
-};
-
-struct Kernel : Epick {
-  using Side_of_oriented_sphere_3 =
-      CGAL::internal::Static_filters_predicates::Side_of_oriented_sphere_3<InTwiceTheDigits>;
-  static Side_of_oriented_sphere_3 side_of_oriented_sphere_3_object() { return {}; }
-};
-
+using Kernel = FilteredKernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int32_t, Kernel>;
 using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<int32_t, Kernel,

@@ -6,15 +6,14 @@
 
 #include "base/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 // clang-format on
+#include "base/filtered_kernel.h"
 
 namespace medial {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using Point = FilteredKernel::Point_3;
 using Corners = std::array<Point, 3>;
 using BoundingBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int32_t>;
 
@@ -35,11 +34,12 @@ bool pierces(const Point& from, const Point& to, const Corners& triangle) {
   for (const Point& corner : triangle) {
     if (corner == from || corner == to) return false;
   }
-  const auto side = CGAL::orientation(a, b, c, from);
-  if (side == CGAL::COPLANAR || CGAL::orientation(a, b, c, to) != -side) return false;
-  const auto turn = CGAL::orientation(from, to, a, b);
-  return turn != CGAL::COPLANAR && CGAL::orientation(from, to, b, c) == turn &&
-         CGAL::orientation(from, to, c, a) == turn;
+  const FilteredKernel::Orientation_3 orientation;
+  const auto side = orientation(a, b, c, from);
+  if (side == CGAL::COPLANAR || orientation(a, b, c, to) != -side) return false;
+  const auto turn = orientation(from, to, a, b);
+  return turn != CGAL::COPLANAR && orientation(from, to, b, c) == turn &&
+         orientation(from, to, c, a) == turn;
 }
 
 bool any_side_pierces(const Corners& sides, const Corners& triangle) {
