@@ -158,6 +158,15 @@ def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
     assert (tmp_path / "b.urdf").read_text().count("<cylinder") == 2
 
 
+def test_a_link_gives_the_warnings_of_its_solid(tmp_path, capsys):
+    points, triangles = block(2, 1, 1)
+    write_off(tmp_path / "open.off", (points, triangles[1:]))
+    mesh = "<collision><geometry><mesh filename='open.off'/></geometry></collision>"
+    (tmp_path / "a.urdf").write_text(f"<robot><link name='a'>{mesh}</link></robot>")
+    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf") == cli.DONE
+    assert "the link 'a': the surface is open at 3 edges" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     "text, said",
     [

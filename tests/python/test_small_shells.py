@@ -5,9 +5,20 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.axis.solid_warnings import solid_warnings
-from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom, SkeletonSettings
+from medial_axis.core.cover.ball_cover import cover_by_balls
+from medial_axis.core.settings import (
+    BallSettings,
+    SamplingMode,
+    Settings,
+    Side,
+    SidesFrom,
+    SkeletonSettings,
+    ThicknessSettings,
+)
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.thickness.face_lengths import MeasuredFaces
+from medial_axis.core.thickness.thickness import measure_thickness
 from support import meshes
 from support.thick_meshes import block
 
@@ -84,8 +95,12 @@ def test_more_pieces_than_parts_and_fewer_cavities_than_inward_shells_are_told()
     ],
     ids=["open", "thinner than samples are apart", "parts that overlap"],
 )
-def test_a_skeleton_gives_the_warnings_of_the_axis(mesh):
+def test_other_results_give_the_warnings_of_the_axis(mesh):
     settings = Settings(samples=1000, crisp=False, sampling=SamplingMode.SURFACE)
-    axis = compute_axis(shape_of(mesh), settings).warnings
-    skeleton = compute_skeleton(shape_of(mesh), settings, SkeletonSettings()).warnings
-    assert axis and set(axis) <= set(skeleton)
+    shape = shape_of(mesh)
+    axis = set(compute_axis(shape, settings).warnings)
+    assert axis <= set(compute_skeleton(shape, settings, SkeletonSettings()).warnings)
+    assert axis <= set(cover_by_balls(shape, settings, BallSettings()).warnings)
+    thickness = measure_thickness(shape, settings, ThicknessSettings())
+    by_faces = isinstance(thickness.chosen, MeasuredFaces)  # no sample can be too far apart
+    assert axis and (by_faces or axis <= set(thickness.warnings))

@@ -702,3 +702,16 @@ def test_the_length_of_a_triangle_is_the_least_wall_at_its_corners():
     np.testing.assert_array_equal(found.of_triangles[known], walls[known])
     assert np.isinf(found.of_triangles[~known]).all() and known.mean() > 0.2
     assert np.isfinite(found.lengths).all()
+
+
+@pytest.mark.parametrize("height, walls", [(1.5, False), (4.0, True)])
+def test_the_largest_ball_between_lids_of_openings_is_told(height, walls):
+    """A ring without lids that is lower than wide has no two walls whose balls reach each other."""
+    points, triangles = lathe([(0, 0), (1, 0), (1, height), (0, height)], 24)
+    side = np.ptp(points[triangles][:, :, 2], axis=1) > 0
+    used, rows = np.unique(triangles[side], return_inverse=True)
+    shape = Shape(points[used], rows.reshape(-1, 3).astype(np.int32))
+    found = measure_thickness(shape, Settings(samples=2000), ThicknessSettings())
+    told = " ".join(found.warnings)
+    assert "the surface is open at 48 edges" in told
+    assert found.measured.any() == walls == ("the largest ball" not in told)

@@ -27,6 +27,7 @@ class LinkCover:
     balls: Balls | None
     problem: str = ""
     seconds: float = 0.0
+    warnings: tuple[str, ...] = ()  # About its geometry
 
     @property
     def figures(self) -> dict[str, Any]:
@@ -98,11 +99,12 @@ def _cover(
     except MedialAxisError as error:
         return LinkCover(link, None, str(error))
     balls = found.balls.moved(shape.frame[:3, 3])
-    return LinkCover(link, balls, "", time.perf_counter() - start)
+    return LinkCover(link, balls, "", time.perf_counter() - start, found.warnings)
 
 
 def _warnings(cover: LinkCover, most: float) -> Iterator[str]:
     name = cover.link.name
+    yield from (f"the link '{name}': {text}" for text in cover.warnings)
     if cover.problem:
         yield f"the link '{name}' stays as it was: {cover.problem}"
     elif cover.balls is not None and 0.0 < most < error_of(cover.balls):

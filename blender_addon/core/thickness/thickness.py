@@ -247,6 +247,11 @@ def _warnings(found: Measurement) -> Iterator[str]:
         )
     elif not np.isfinite(found.minimum):
         yield _nothing(found)
+    elif isinstance(found.chosen, ChosenSamples) and found.chosen.gaps and not found.measured.any():
+        yield (
+            "no two walls that face each other were found, so every length is that of the largest ball, which the lids "
+            "of openings stop, too; close the openings where they should be"
+        )
     if len(found.walls.distance):
         yield (
             f"at {percent(float(found.walls.share.sum()))} of the surface the walls are closer than the axis "
