@@ -9,13 +9,17 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
+from medial_axis.core.machine.memory_limit import WHAT_IS_FREE
 from medial_axis.core.samples.analysed import Analysed
+from medial_axis.core.samples.choose_samples import begin
 from medial_axis.core.samples.decide import Effort
 from medial_axis.core.samples.density import Density
 from medial_axis.core.samples.next_amount import next_amount
 from medial_axis.core.samples.walls import Walls
-from medial_axis.core.settings import SamplingMode, Settings
+from medial_axis.core.settings import SamplingMode, Settings, Side
+from medial_axis.core.shape.shape import Shape
 from support import meshes, thin_solids
+from support.thick_meshes import block, lathe, pipe
 
 from tests.support.fuzz import repeats
 
@@ -269,3 +273,34 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
     sites, spacings = amount.sizing
     assert amount.count == 200 and sites.tolist() == places.tolist()
     assert spacings.tolist() == [0.05, 0.3, 0.5]
+
+
+def plates_of(mesh, spacing, **settings):
+    """The share of the samples on plates, and how they were chosen."""
+    shape = Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+    wanted = Settings(samples=4000, side=Side.INNER, **settings)
+    chosen = begin(shape, wanted, None, WHAT_IS_FREE, levels=True).chosen
+    assert chosen.samples.spacing == pytest.approx(spacing, rel=0.2)
+    return float(chosen.samples.plates.mean()), chosen
+
+
+def test_the_walls_of_a_pipe_need_no_second_pass():
+    """Epsilon is 0.5 at walls 3 spacings apart, but the axis between them is exact."""
+    mesh = pipe(30, 0.5, 0.5, 0.15, 3.0)
+    share, chosen = plates_of(mesh, 0.07)
+    assert share > 0.8 and len(chosen.samples.points) < 4500
+    assert chosen.samples.density.dense_enough
+    _, dense = plates_of(mesh, 0.07, crisp=False)  # no ball has an exact place
+    assert len(dense.samples.points) > 2 * len(chosen.samples.points)
+
+
+def test_a_rod_is_no_plate():
+    """Balls touch the wall of a rod all round, so that few samples would show another axis."""
+    share, _ = plates_of(lathe([(0, 0), (0.2, 0), (0.2, 3), (0, 3)], 48), 0.033)
+    assert share < 0.1
+
+
+def test_plates_thinner_than_two_spacings_get_pairs():
+    _, chosen = plates_of(block(3.0, 2.0, 0.08), 0.06)
+    assert chosen.samples.partners is not None and len(chosen.samples.points) < 4500
+    assert chosen.samples.density.dense_enough

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Flags, Floats, Ints
 from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
 from ..shape.triangles import FEW
-from .density import HOLE, Density
+from .density import DENSE_ENOUGH, HOLE, Density
 from .levels import Levels
 from .walls import Places, Walls
 
@@ -88,6 +88,9 @@ class Analysed(Samples):
     # (n, 2) The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None
     # where there are no faces
     patches: Ints | None = None
+    # (k,) Of the samples whose density was measured, those between which and the opposite wall the axis is right
+    # whatever the spacing; None where no walls were looked for
+    plates: Flags | None = None
     kept: Kept = field(default_factory=Kept)
 
     @cached_property
@@ -108,6 +111,14 @@ class Analysed(Samples):
     def walls_are_close(self) -> bool:
         """Whether the axis is missing between walls that are close."""
         return not self.overlaps and self.walls is not None and self.walls.are_missed
+
+    @cached_property
+    def pairs_show_more(self) -> bool:
+        """Whether the axis between close walls is missing, or between flat ones too sparse: pairs show more of it."""
+        walls = self.walls
+        if self.walls_are_close or self.overlaps or walls is None:
+            return self.walls_are_close
+        return walls.are_flat and walls.close > DENSE_ENOUGH and not self.density.dense_enough
 
     @property
     def walls_to_show(self) -> Walls | None:

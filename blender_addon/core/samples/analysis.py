@@ -7,14 +7,16 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from ..arrays import Ints
+import numpy as np
+
+from ..arrays import Flags, Ints, Longs
 from ..machine import native
 from ..machine.beside import Beside
 from ..settings import SidesFrom
 from ..shape.solid_faces import solid_faces
 from .analysed import Analysed, Samples
 from .decide import Plan
-from .density import LOOKED_AT, Density, estimate
+from .density import HOLE, LOOKED_AT, Density, estimate
 from .surface_samples import are_paired
 from .walls import Places, Walls, find_walls, middles_of_faces
 
@@ -51,6 +53,9 @@ def analyse(
         patches = _patches(plan, samples, options["sharp_angle"])
         density = _density(plan, samples, analysis, first)
     walls, by_faces = beside.result()
+    plates = None
+    if walls is not None and walls.rows is not None:
+        plates = _on_plates(density, samples, analysis.samples, walls)
     flat = options["sharp_angle"] if plan.of_faces and not options["smooth"] else 0.0
     left = replace(samples, spacing=first, radius=None, edges=None, places=None)
     return Analysed(
@@ -61,6 +66,7 @@ def analyse(
         by_faces=by_faces,
         solid=solid_faces(shape, source, samples.faces, flat),
         patches=patches,
+        plates=plates,
     )
 
 
@@ -89,6 +95,15 @@ def _density(plan: Plan, samples: Samples, analysis: Any, first: float) -> Densi
     return estimate(analysis, points, samples.edges, first, limit, paired=paired)
 
 
+def _on_plates(density: Density, samples: Samples, rows: Longs, walls: Walls) -> Flags:
+    """(k,) which of the samples whose density was measured are on a plate; `rows` are these samples."""
+    feature_size, found = np.zeros(len(samples.points)), np.zeros(len(samples.points), bool)
+    feature_size[rows] = density.feature_size
+    assert walls.rows is not None
+    found[walls.plates(feature_size[walls.rows])] = True
+    return found[rows]
+
+
 def _patches(plan: Plan, samples: Samples, sharp_angle: float) -> Ints | None:
     """Return the patches of samples of the faces, or of the vertices, as `Analysed.patches`."""
     shape = plan.given.shape
@@ -113,5 +128,6 @@ def _by_faces(
     shape, source, walls = plan.given.shape, plan.sides.source, None
     by_surface = source is SidesFrom.SURFACE
     if (by_surface or (plan.of_faces and source is SidesFrom.NORMALS)) and shape.volume > 0:
-        walls = find_walls(shape, places or middles_of_faces(shape), progress)
+        reach = 2.0 * HOLE / plan.given.settings.epsilon
+        walls = find_walls(shape, places or middles_of_faces(shape), reach, progress)
     return walls, shape.solid_betti if by_surface and not shape.open_edges else None

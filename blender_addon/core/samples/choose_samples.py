@@ -136,7 +136,11 @@ class _Passes:
             found = replace(found, kept=Kept(key))
             CACHE.put(key, found, bytes_of(found))
         limit, finest = plan.given.settings.epsilon, plan.effort.at_edges * found.spacing
-        return replace(found, density=replace(found.density, limit=limit, finest=finest))
+        density = replace(found.density, limit=limit, finest=finest)
+        exact = plan.given.settings.has_crisp_places and found.by_faces is not None
+        if plan.compares and exact and found.plates is not None:
+            density = density.with_plates(found.plates)
+        return replace(found, density=density)
 
     def _compared(self, step: Compare) -> tuple[Pass, ...]:
         """Compare the topology of the last pass, whose hierarchy will be needed if it is right.

@@ -8,7 +8,7 @@ its distance to the medial axis. Here this distance is measured to the computed 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -41,9 +41,13 @@ class Density:
     edges: Floats  # (m, 3) The samples of sharp edges
     finest: float  # The smallest spacing at sharp edges, where the feature size is 0
     limit: float  # The largest epsilon that is dense enough
-    # (k,) Samples with a partner on the opposite wall, between which the axis is right whatever the spacing. Their
-    # epsilon counts as 0.
+    # (k,) Samples with a partner on the opposite wall, or of a plate, between which the axis is right whatever the
+    # spacing. Their epsilon counts as 0.
     paired: Flags | None = None
+
+    def with_plates(self, plates: Flags) -> Density:
+        """The density where samples of plates, (k,), count as those with partners."""
+        return replace(self, paired=plates if self.paired is None else plates | self.paired)
 
     @cached_property
     def at_edge(self) -> Flags:

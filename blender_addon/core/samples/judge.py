@@ -124,7 +124,7 @@ def _vertices(plan: Plan, analysed: Analysed, why: str) -> ChosenSamples:
 def _denser(plan: Plan, passes: tuple[Pass, ...]) -> Amount | None:
     """Return the amount of another pass without pairs, for Adaptive and Automatic; None where none is needed."""
     samples = passes[-1].samples
-    if len(passes) == 1 and _compares(plan, samples) and samples.walls_are_close:
+    if len(passes) == 1 and _compares(plan, samples) and samples.pairs_show_more:
         return None  # pairs see more between walls than smaller spacings
     if len(passes) >= plan.effort.passes:
         return None
@@ -178,12 +178,14 @@ def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
     start, *tried = compared
     if not tried:
         assert start.topology is not None
-        if not start.samples.walls_are_close and not (
+        if not start.samples.pairs_show_more and not (
             start.differences and len(start.topology.gaps)
         ):
             return None
         return replace(plan.first, pairs=True, flat=sharp_on_flat(plan, start.samples))
     trial, samples, number = tried[-1], tried[-1].samples, len(tried)
+    if trial.differences and not start.samples.walls_are_close and not start.differences:
+        return None
     again = number == 1 and (not samples.density.dense_enough or samples.walls_are_close)
     left = plan.given.settings.budget - sum(len(one.samples.points) for one in tried)
     if not (trial.differences or again) or left <= len(samples.points):
@@ -245,6 +247,6 @@ def _of_passes(plan: Plan, samples: Analysed, passes: int) -> str:
 
 def _of_pairs(passes: tuple[Pass, ...], in_pairs: int) -> str:
     """Say why and how samples in pairs were taken."""
-    close = trials(passes)[0].samples.walls_are_close
+    close = trials(passes)[0].samples.pairs_show_more
     why = "the walls are thin" if close else "the topology was not that of the faces"
     return f"; {why}: samples in pairs" + (f" in {in_pairs} passes" if in_pairs > 1 else "")

@@ -80,6 +80,7 @@ def sample_faces(plan: Plan, options: dict[str, Any], progress: Any) -> Samples:
             found.bend[inside],
             are_paired(found.partner)[inside],
             np.linalg.norm(found.points - feet, axis=1)[inside],
+            np.flatnonzero(inside[bare]),
         ),
         partners=_of_rows(found.partner, bare) if options["pairs"] else None,
         offset=shape.offset,

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Flags, Floats, Ints
+from ..arrays import Flags, Floats, Ints, Longs
 from ..machine import native
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of, unit_normals
@@ -32,6 +32,9 @@ _FOLLOWED, _FINER = 0.4, 0.25  # chosen: axis
 _BULGING = 0.5  # chosen: unseen
 # A sample is on its flat face up to this share of the spacing.
 _FLAT = 1e-3  # derived: rounding
+# The feature size as a share of the distance of walls that differ by 30 degrees, as far as they are looked for, where
+# the axis is the middle sheet between them. Parallel walls have 0.5.
+_MIDDLE = 0.464  # derived: c / (1 + c), c the cosine
 # Walls that stay closer than this number of spacings within the budget do not justify another pass.
 _HOPELESS = 0.5  # chosen: unseen
 
@@ -49,6 +52,7 @@ class Places:
     bend: Floats | None = None  # (n,) The curvature of the surface there
     paired: Flags | None = None  # (n,) Whether the sample there has a partner on the opposite wall
     bulge: Floats | None = None  # (n,) The distance of the sample from the flat face
+    rows: Longs | None = None  # (n,) The sample that each place is; None where they are no samples
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,7 +62,7 @@ class Walls(Places):
     Between walls whose samples are `paired` the axis is missing only where the walls bend away between the samples.
     """
 
-    distance: Floats  # (n,) Infinite where there is no wall within two spacings
+    distance: Floats  # (n,) Infinite where there is no wall within reach
 
     @cached_property
     def missed(self) -> float:
@@ -68,6 +72,14 @@ class Walls(Places):
     @cached_property
     def are_missed(self) -> bool:
         return self.missed > FEW
+
+    @property
+    def close(self) -> float:
+        """The share of the area whose walls are closer than samples without a partner should be apart."""
+        close = self.distance < _WANTED * self.spacing
+        if self.paired is not None:
+            close &= ~self.paired
+        return float(self.area[close].sum() / self.area.sum()) if len(self.area) else 0.0
 
     @property
     def bulges(self) -> Flags:
@@ -89,6 +101,17 @@ class Walls(Places):
     def thickness(self) -> float:
         """The median distance of the walls that are missed."""
         return float(np.median(self.distance[self._are_missed]))
+
+    def plates(self, feature_size: Floats) -> Longs:
+        """(k,) the samples at which the axis is the middle sheet between walls, and right whatever the spacing.
+
+        The feature size is that at each place, (n,). Walls have to bend half as much as the balls between them: in rods
+        these touch the wall all round.
+        """
+        assert self.rows is not None and self.bend is not None
+        apart = np.where(np.isfinite(self.distance), self.distance, 0.0)
+        wide = apart >= _WANTED * self.spacing
+        return self.rows[wide & (feature_size >= _MIDDLE * apart) & (apart * self.bend <= 1.0)]
 
     def wanted(self, finest: float) -> tuple[Floats, Floats]:
         """Return (k, 3) places between close walls, and (k,) the spacings that would show the axis there.
@@ -137,13 +160,13 @@ def middles_of_faces(shape: Shape) -> Places:
     return Places(corners.mean(axis=1)[wide], normals[wide], spacing[wide], doubled[wide], faces)
 
 
-def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
-    """Measure the distance to the opposite wall."""
+def find_walls(shape: Shape, places: Places, reach: float, progress: Any) -> Walls:
+    """Measure the distance to the opposite wall, up to a number of spacings."""
     with native.own_errors() as module:
         distance = module.wall_distances(
             places.points,
             places.normals,
-            _WANTED * places.spacing,
+            max(_WANTED, reach) * places.spacing,
             shape.points,
             shape.triangles,
             progress=progress,

@@ -10,7 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "base/double_double.h"
 
@@ -19,11 +18,9 @@ namespace medial {
 // Returns the largest power of two of which a number is a multiple; infinity for 0.
 inline double unit_of(double x) {
   if (x == 0) return HUGE_VAL;
-  constexpr int kDigits = std::numeric_limits<double>::digits;
   int exponent = 0;
-  const double share = std::abs(std::frexp(x, &exponent));
-  const auto whole = static_cast<uint64_t>(std::ldexp(share, kDigits));
-  return std::ldexp(1.0, exponent - kDigits + std::countr_zero(whole));
+  const auto digits = static_cast<uint64_t>(std::ldexp(std::abs(std::frexp(x, &exponent)), 53));
+  return std::ldexp(1.0, exponent - 53 + std::countr_zero(digits));
 }
 
 // Samples and triangles of flat faces are as good as coplanar and cospherical wherever the faces
@@ -31,46 +28,53 @@ inline double unit_of(double x) {
 struct InTwiceTheDigits : CGAL::Exact_predicates_inexact_constructions_kernel {
   using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Point = Exact::Point_3;
-  // derived: what twice the digits are off by over what doubles are off by, 2^-100 / 2^-53
-  static constexpr double kFiner = 0x1p-47;
-  static constexpr double kLeast = 1e-250;  // derived: below it parts of products underflow
 
   struct Orientation_3 : Exact::Orientation_3 {
     using Exact::Orientation_3::operator();
     CGAL::Orientation operator()(const Point& p, const Point& q, const Point& r,
                                  const Point& s) const {
-      constexpr double kError = 5.2e-15 * kFiner;  // derived: CGAL's bound for doubles
-      const Differences<3> d({q, r, s}, p);
-      const auto& [a, b, c] = d.rows;
-      const double x = CGAL::determinant(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]).high;
-      const double bound = kError * d.most[0] * d.most[1] * d.most[2];
-      if (bound > kLeast && std::abs(x) > bound) return x > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE;
-      // What is a multiple of a unit, and smaller than it, is nothing.
-      const double unit = d.unit(0) * d.unit(1) * d.unit(2);
-      if (bound > kLeast && std::abs(x) + bound < unit) return CGAL::COPLANAR;
-      return Exact::Orientation_3::operator()(p, q, r, s);
+      const Differences<3> m({q, r, s}, p);
+      const auto& [a, b, c] = m.rows;
+      const Sum x{CGAL::determinant(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]),
+                  5.2e-15 * m.most[0] * m.most[1] * m.most[2]};
+      if (x.has_sign()) return x.sign();
+      // A multiple of a unit that is smaller than the unit is zero.
+      return x.is_below(m.unit(0) * m.unit(1) * m.unit(2))
+                 ? CGAL::COPLANAR
+                 : Exact::Orientation_3::operator()(p, q, r, s);
     }
   };
 
   struct Side_of_oriented_sphere_3 {
     CGAL::Oriented_side operator()(const Point& p, const Point& q, const Point& r, const Point& s,
                                    const Point& t) const {
-      constexpr double kError = 1.25e-13 * kFiner;  // derived: CGAL's bound for doubles
       const Differences<4> m({p, r, q, s}, t);
       const auto& [a, b, c, d] = m.rows;
-      const double x = CGAL::determinant(a[0], a[1], a[2], square(a), b[0], b[1], b[2], square(b),
-                                         c[0], c[1], c[2], square(c), d[0], d[1], d[2], square(d))
-                           .high;
       const double largest = std::max({m.most[0], m.most[1], m.most[2]});
-      const double bound = kError * (m.most[0] * m.most[1] * m.most[2] * largest * largest);
-      if (!(bound > kLeast && std::abs(x) > bound))
-        return Exact::Side_of_oriented_sphere_3()(p, q, r, s, t);
-      return x > 0 ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+      const Sum x{CGAL::determinant(a[0], a[1], a[2], square(a), b[0], b[1], b[2], square(b), c[0],
+                                    c[1], c[2], square(c), d[0], d[1], d[2], square(d)),
+                  1.25e-13 * (m.most[0] * m.most[1] * m.most[2] * largest * largest)};
+      return x.has_sign() ? x.sign() : Exact::Side_of_oriented_sphere_3()(p, q, r, s, t);
     }
   };
 
  private:
   using Difference = std::array<DoubleDouble, 3>;
+
+  // A determinant, and by how much CGAL says that doubles would be off.
+  struct Sum {
+    DoubleDouble value;
+    double of_doubles;
+
+    double bound() const {
+      constexpr double kLeast = 1e-235;  // derived: below it parts of products underflow
+      return of_doubles > kLeast ? 0x1p-47 * of_doubles
+                                 : HUGE_VAL;  // 2^-100 / 2^-53, by the digits
+    }
+    bool has_sign() const { return std::abs(value.high) > bound(); }
+    CGAL::Sign sign() const { return value.high > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE; }
+    bool is_below(double unit) const { return std::abs(value.high) + bound() < unit; }
+  };
 
   static DoubleDouble square(const Difference& d) {
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
