@@ -114,9 +114,12 @@ class Analysed(Samples):
 
     @cached_property
     def pairs_show_more(self) -> bool:
-        """Whether the axis between close walls is missing, or between flat ones too sparse: pairs show more of it."""
+        """Whether the axis between close walls is missing, or between flat ones too sparse: pairs show more of it.
+
+        Flat walls need sheets with exact places, of which plates count as dense.
+        """
         walls = self.walls
-        if self.walls_are_close or self.overlaps or walls is None:
+        if self.walls_are_close or self.overlaps or walls is None or self.density.paired is None:
             return self.walls_are_close
         return walls.are_flat and walls.close > DENSE_ENOUGH and not self.density.dense_enough
 

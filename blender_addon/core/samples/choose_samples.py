@@ -16,7 +16,7 @@ from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine.cache import CACHE, bytes_of, key_of
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Settings, SidesFrom
+from ..settings import Form, Settings, SidesFrom
 from ..shape.shape import Shape
 from .analysed import Analysed, Kept
 from .analysis import analyse, vertices_of
@@ -137,8 +137,9 @@ class _Passes:
             CACHE.put(key, found, bytes_of(found))
         limit, finest = plan.given.settings.epsilon, plan.effort.at_edges * found.spacing
         density = replace(found.density, limit=limit, finest=finest)
-        exact = plan.given.settings.has_crisp_places and found.by_faces is not None
-        if plan.compares and exact and found.plates is not None:
+        settings = plan.given.settings
+        exact = settings.has_crisp_places and settings.form_of_side is Form.CLEAN
+        if plan.compares and exact and found.by_faces is not None and found.plates is not None:
             density = density.with_plates(found.plates)
         return replace(found, density=density)
 
