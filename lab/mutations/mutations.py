@@ -541,8 +541,8 @@ MUTATIONS = (
     # ---- skeleton
     Mutation(
         "collapse/wires.cpp",
-        "if (distance(at, complex_.position[front.anchor]) > 0.5 * complex_.radius[vertex]) {",
-        "if (distance(at, complex_.position[front.anchor]) > 0 * complex_.radius[vertex]) {",
+        "if (++front.edges >= kEdgesPerAnchor && away > 0.5 * complex_.radius[vertex]) {",
+        "if (away > 0) {",
         "times on wires are summed over zigzags",
     ),
     Mutation(

@@ -13,6 +13,7 @@ from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
 from support.shapes import SHAPES, Cyclide, RoundCone, frustum
+from support.thick_meshes import block, pipe
 
 pytestmark = pytest.mark.oracle
 
@@ -367,3 +368,23 @@ def test_a_solid_without_a_ball_has_an_empty_curve():
     assert len(found.axis.vertices) == 0 and "no facet passes" in found.warnings[-1]
     with pytest.raises(DegenerateInputError, match="found none"):
         compute_skeleton(Shape(points, triangles), wanted, SkeletonSettings())
+
+
+@pytest.mark.parametrize("wall", [0.25, 0.1])
+def test_the_curve_of_a_pipe_is_one_ring(wall):
+    """Its walls are 3.5 and 1.4 spacings apart: Voronoi edges zigzag by more than the ball between them is wide."""
+    settings = Settings(form=Form.CURVE, samples=4000, sampling=SamplingMode.SURFACE)
+    axis = compute(*pipe(30, 0.5, 0.5, wall, 3.0), settings).axis
+    ends = axis.vertices[axis.edges]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+    assert length == pytest.approx(2 * math.pi * (0.5 - wall / 2), rel=0.02)
+    assert np.bincount(axis.edges.ravel()).max() == 2
+
+
+def test_the_skeleton_of_a_plate_has_five_branches():
+    """A ridge in its middle, and a branch to each corner."""
+    mesh = block(3.0, 2.0, 0.12)
+    shape = Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+    settings = Settings(samples=4000, sampling=SamplingMode.SURFACE)
+    skeleton = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
+    assert (len(skeleton.branch_offsets) - 1, skeleton.tips, skeleton.loops) == (5, 4, 0)

@@ -16,6 +16,7 @@ import numpy as np
 
 LEVELS = 16  # of weight, in the fringe
 AT_ONCE = 1 / 1024  # of the diagonal: wires that are loose and no longer than this do not wait
+PER_ANCHOR = 9  # edges, at least, from one anchor of a front to the next
 
 
 @dataclass
@@ -273,11 +274,11 @@ class Collapse:
     def burn_wires(self):
         c = self.c
         self.elongation = {}
-        front: dict[int, tuple[float, int, float]] = {}  # time, anchor, its time
+        front: dict[int, tuple[float, int, float, int]] = {}  # time, anchor, its time, edges
         waiting: list[tuple[float, int]] = []
 
         def later(known, x):
-            time, anchor, anchor_time = known
+            time, anchor, anchor_time, _ = known
             return max(time, anchor_time + np.linalg.norm(x - c.position[anchor]))
 
         def light(v):
@@ -285,7 +286,7 @@ class Collapse:
             lateral = self.times[e]
             sideways = lateral[c.edges[e].index(v)]
             if v not in front or not front[v][0] > sideways:
-                front[v] = (sideways, v, sideways)
+                front[v] = (sideways, v, sideways, 0)
             time = later(front[v], c.position[list(c.edges[e])].mean(axis=0))
             self.elongation[v] = max(0.0, time - sum(lateral) / 2)
             return self.elongation[v]
@@ -294,10 +295,13 @@ class Collapse:
             e = self.at_vertex(v)[0]
             w = self.other(e, v)
             self.take("wire", e, v)
-            time, (_, anchor, anchor_time) = later(front[v], c.position[w]), front[v]
-            arrived = (time, anchor, anchor_time)
-            if np.linalg.norm(c.position[w] - c.position[anchor]) > c.radius[w] / 2:
-                arrived = (time, w, time)
+            time, (_, anchor, anchor_time, edges) = later(front[v], c.position[w]), front[v]
+            arrived = (time, anchor, anchor_time, edges + 1)
+            if (
+                edges + 1 >= PER_ANCHOR
+                and np.linalg.norm(c.position[w] - c.position[anchor]) > c.radius[w] / 2
+            ):
+                arrived = (time, w, time, 0)
             if w not in front or time > front[w][0]:
                 front[w] = arrived
             return w

@@ -70,9 +70,7 @@ struct alignas(32) HotEdge {
 
 constexpr double kNotKnown = -1;  // no time is below 0; derived: below every time
 constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 12;
-// width of the first range of buckets, as a share of the diagonal
-constexpr double kFirstRange = 1.0 / 1024;  // work: time
-constexpr int kLookEvery = 1 << 13;         // facets between two checks for cancellation
+constexpr int kLookEvery = 1 << 13;  // facets between two checks for cancellation
 
 class Fire {
  public:

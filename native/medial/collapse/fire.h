@@ -12,6 +12,9 @@
 
 namespace medial {
 
+// The width of the first range of a queue of fire, as a share of the diagonal.
+inline constexpr double kFirstRange = 1.0 / 1024;  // work: time
+
 // Holds the times at the ends of an edge, in the order of its ends.
 using Times = std::array<double, 2>;
 

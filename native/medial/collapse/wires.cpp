@@ -6,17 +6,16 @@
 namespace medial {
 namespace {
 
-// Below this share of the diagonal, the order only affects which vertex of a small tree stays: a
-// loose end stays loose, and the cells behind it determine the elongation.
-constexpr double kAtOnce = 1.0 / 1024;  // chosen: unseen
 constexpr size_t kBuckets = 512;
 
 // A fire front on a wire measures lengths from an anchor instead of adding up edges, because
-// Voronoi edges zigzag.
+// Voronoi edges zigzag. The anchor follows after half of the radius of the ball there, and not
+// before so many edges: those of sheets that are thinner than the samples are apart zigzag as well.
 struct Front {
   double time = -HUGE_VAL, anchor_time = -HUGE_VAL;
-  int32_t anchor = -1;
+  int32_t anchor = -1, edges = 0;
 };
+constexpr int32_t kEdgesPerAnchor = 9;  // derived: a chord of 4 spacings is off by 1 %
 
 class WireFire {
  public:
@@ -25,7 +24,7 @@ class WireFire {
         burning_(burning),
         collapse_(collapse),
         progress_(run.progress),
-        queue_(kAtOnce * complex.diagonal / kBuckets, kBuckets),
+        queue_(kFirstRange * complex.diagonal / kBuckets, kBuckets),
         left_(edges_left(complex, collapse, {run.threads, nullptr, run.arena})),
         front_(array<Front>(complex.cell.size(), Front{}, run)) {
     wires_.order = array<int32_t>(0, run);
@@ -48,12 +47,14 @@ class WireFire {
     return left_[vertex].count() == 1 && burning_.is_wire[left_[vertex].last()];
   }
 
-  // Removes loose ends, one after the other, as long as they do not have to wait.
+  // Removes loose ends, one after the other, as long as they do not have to wait. In the first
+  // range the order only affects which vertex of a small tree stays: a loose end stays loose, and
+  // the cells behind it determine the elongation.
   void follow(int32_t vertex) {
     while (is_loose(vertex)) {
       light(vertex);
       const double elongation = wires_.elongation[vertex];
-      if (elongation > kAtOnce * complex_.diagonal) {
+      if (elongation > kFirstRange * complex_.diagonal) {
         queue_.push(elongation, vertex);
         return;
       }
@@ -96,9 +97,9 @@ class WireFire {
   void arrive(Front front, int32_t vertex) {
     const Vec3& at = complex_.position[vertex];
     front.time = later(front, at);
-    if (distance(at, complex_.position[front.anchor]) > 0.5 * complex_.radius[vertex]) {
-      front.anchor = vertex;
-      front.anchor_time = front.time;
+    const double away = distance(at, complex_.position[front.anchor]);
+    if (++front.edges >= kEdgesPerAnchor && away > 0.5 * complex_.radius[vertex]) {
+      front = {front.time, front.time, vertex};
     }
     if (front.time > front_[vertex].time) front_[vertex] = front;
   }
