@@ -170,12 +170,14 @@ def test_ends_that_cannot_be_joined_are_refused(data_file):
     settings = Settings(sampling=SamplingMode.SURFACE, samples=3000)
     whole = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
     ends, _ = limb_ends(shape, whole)
-    middle = shape.points[np.argmin(np.linalg.norm(shape.points - ends[[0, 1]].mean(0), axis=1))]
+    apart = np.linalg.norm(ends[:, None] - ends, axis=2)
+    far = ends[list(np.unravel_index(apart.argmax(), apart.shape))]
+    middle = shape.points[np.argmin(np.linalg.norm(shape.points - far.mean(axis=0), axis=1))]
     for wrong, message in (
         (ends[:1], "two or more ends"),
         (np.full((2, 3), np.nan), "two or more ends"),
         (ends[[0, 1, 0]], "ends 1 and 3 at the same one"),
-        (np.stack((ends[0], ends[1], middle)), "lies between others"),
+        (np.stack((*far, middle)), "lies between others"),
     ):
         with pytest.raises(InvalidInputError, match=message):
             compute_skeleton(shape, settings, SkeletonSettings(), ends=wrong)
