@@ -148,8 +148,6 @@ TEST(PolygonEdges, AreThoseOfTheCorners) {
   }
 }
 
-// The corners of a thin plate, with normals that are rounding or lie along the longest way: the
-// axes are at right angles, and the box holds its points.
 TEST(DoubleDouble, KeepsTwiceTheDigits) {
   const DoubleDouble near_one = DoubleDouble(1) + DoubleDouble(0x1p-80);
   const DoubleDouble squared = near_one * near_one - DoubleDouble(1);
@@ -159,6 +157,8 @@ TEST(DoubleDouble, KeepsTwiceTheDigits) {
   EXPECT_EQ(off.high, -0x1p-54);
 }
 
+// The corners of a thin plate, with normals that are rounding or lie along the longest way: the
+// axes are at right angles, and the box holds its points.
 TEST(OrientedBox, HoldsPointsWhateverTheNormal) {
   std::mt19937 random(7);
   const auto corner = [&](int k) {

@@ -135,9 +135,8 @@ class _Passes:
             found = analyse(plan, samples, first, options, part(share))
             found = replace(found, kept=Kept(key))
             CACHE.put(key, found, bytes_of(found))
-        limit, finest = plan.given.settings.epsilon, plan.effort.at_edges * found.spacing
-        density = replace(found.density, limit=limit, finest=finest)
-        settings = plan.given.settings
+        settings, finest = plan.given.settings, plan.effort.at_edges * found.spacing
+        density = replace(found.density, limit=settings.epsilon, finest=finest)
         exact = settings.has_crisp_places and settings.form_of_side is Form.CLEAN
         if plan.compares and exact and found.by_faces is not None and found.plates is not None:
             density = density.with_plates(found.plates)

@@ -68,8 +68,8 @@ struct InTwiceTheDigits : CGAL::Exact_predicates_inexact_constructions_kernel {
 
     double bound() const {
       constexpr double kLeast = 1e-235;  // derived: below it parts of products underflow
-      return of_doubles > kLeast ? 0x1p-47 * of_doubles
-                                 : HUGE_VAL;  // 2^-100 / 2^-53, by the digits
+      // The digits are finer by 2^-100 / 2^-53.
+      return of_doubles > kLeast ? 0x1p-47 * of_doubles : HUGE_VAL;
     }
     bool has_sign() const { return std::abs(value.high) > bound(); }
     CGAL::Sign sign() const { return value.high > 0 ? CGAL::POSITIVE : CGAL::NEGATIVE; }
