@@ -16,14 +16,14 @@ from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine.cache import CACHE, bytes_of, key_of
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Form, Settings, SidesFrom
+from ..settings import Settings, SidesFrom
 from ..shape.shape import Shape
 from .analysed import Analysed, Kept
 from .analysis import analyse, vertices_of
 from .chosen import Begun, ChosenSamples
 from .decide import Plan, decide
 from .doubts import Topology, betti_of, doubts_of, no_doubts
-from .judge import Again, Compare, Pass, finish, instead_of_vertices, judge, trials
+from .judge import Again, Compare, Pass, compares, finish, instead_of_vertices, judge, trials
 from .prepare import Input, prepare
 from .sample_spacing import Amount
 from .surface_samples import close_openings, sample_faces
@@ -137,8 +137,7 @@ class _Passes:
             CACHE.put(key, found, bytes_of(found))
         settings, finest = plan.given.settings, plan.effort.at_edges * found.spacing
         density = replace(found.density, limit=settings.epsilon, finest=finest)
-        exact = settings.has_crisp_places and settings.form_of_side is Form.CLEAN
-        if plan.compares and exact and found.by_faces is not None and found.plates is not None:
+        if settings.has_crisp_places and compares(plan, found) and found.plates is not None:
             density = density.with_plates(found.plates)
         return replace(found, density=density)
 

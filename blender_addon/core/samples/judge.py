@@ -76,7 +76,7 @@ def judge(plan: Plan, passes: tuple[Pass, ...]) -> Again | Compare | ChosenSampl
     amount = _next_in_pairs(plan, compared) if compared else _denser(plan, passes)
     if amount is not None:
         return Again(plan, amount, passes)
-    if not compared and _compares(plan, passes[-1].samples) and not passes[-1].samples.overlaps:
+    if not compared and compares(plan, passes[-1].samples) and not passes[-1].samples.overlaps:
         return Compare(plan, passes)
     return finish(plan, passes)
 
@@ -124,7 +124,7 @@ def _vertices(plan: Plan, analysed: Analysed, why: str) -> ChosenSamples:
 def _denser(plan: Plan, passes: tuple[Pass, ...]) -> Amount | None:
     """Return the amount of another pass without pairs, for Adaptive and Automatic; None where none is needed."""
     samples = passes[-1].samples
-    if len(passes) == 1 and _compares(plan, samples) and samples.pairs_show_more:
+    if len(passes) == 1 and compares(plan, samples) and samples.pairs_show_more:
         return None  # pairs see more between walls than smaller spacings
     if len(passes) >= plan.effort.passes:
         return None
@@ -134,7 +134,7 @@ def _denser(plan: Plan, passes: tuple[Pass, ...]) -> Amount | None:
     return next_amount(plan, samples, plan.given.settings.budget)
 
 
-def _compares(plan: Plan, samples: Analysed) -> bool:
+def compares(plan: Plan, samples: Analysed) -> bool:
     """Return whether the topology is compared with that of the faces, which have to be closed."""
     return plan.compares and samples.by_faces is not None
 

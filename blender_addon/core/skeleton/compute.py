@@ -26,7 +26,7 @@ from ..machine.progress import Progress
 from ..samples.analysed import Analysed
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
-from ..settings import Fill, Form, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
+from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
 from ..shape.shape import Shape
 from .chords import keep_inside, kept_inside, kept_points
@@ -93,7 +93,7 @@ def compute_skeleton(
     full = None if wanted.fill is Fill.OFF else filled(shape)
     begun = begin(
         full.shape if full else shape,
-        replace(settings, side=Side.INNER, form=Form.CURVE),
+        replace(settings, side=Side.INNER),
         progress,
         limit,
         ANALYSIS,
