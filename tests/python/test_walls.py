@@ -300,7 +300,12 @@ def test_a_rod_is_no_plate():
     assert share < 0.1
 
 
-def test_plates_thinner_than_two_spacings_get_pairs():
-    _, chosen = plates_of(block(3.0, 2.0, 0.08), 0.06)
-    assert chosen.samples.partners is not None and len(chosen.samples.points) < 4500
-    assert chosen.samples.density.dense_enough
+@pytest.mark.parametrize("wall, is_plate", [(0.12, True), (0.08, True), (0.04, False)])
+@pytest.mark.parametrize("bent", [False, True])
+def test_walls_are_plates_as_far_as_their_axis_is_there(wall, is_plate, bent):
+    """Below 0.8 spacings pairs show it, and neither needs more samples than the first pass."""
+    mesh = pipe(40, 0.5, 0.5, wall, 3.0) if bent else block(3.0, 2.0, wall)
+    _, chosen = plates_of(mesh, 0.065)
+    assert (chosen.samples.partners is None) == is_plate
+    assert len(chosen.samples.points) < 4500 and chosen.samples.density.dense_enough
+    assert not chosen.differs

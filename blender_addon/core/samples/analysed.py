@@ -13,7 +13,7 @@ from ..arrays import Flags, Floats, Ints
 from ..settings import OPTIONS, SidesFrom
 from ..shape.solid_faces import SolidFaces
 from ..shape.triangles import FEW
-from .density import DENSE_ENOUGH, HOLE, Density
+from .density import HOLE, Density
 from .levels import Levels
 from .walls import Places, Walls
 
@@ -111,17 +111,6 @@ class Analysed(Samples):
     def walls_are_close(self) -> bool:
         """Whether the axis is missing between walls that are close."""
         return not self.overlaps and self.walls is not None and self.walls.are_missed
-
-    @cached_property
-    def pairs_show_more(self) -> bool:
-        """Whether the axis between close walls is missing, or between flat ones too sparse: pairs show more of it.
-
-        Flat walls need sheets with exact places, of which plates count as dense.
-        """
-        walls = self.walls
-        if self.walls_are_close or self.overlaps or walls is None or self.density.paired is None:
-            return self.walls_are_close
-        return walls.are_flat and walls.close > DENSE_ENOUGH and not self.density.dense_enough
 
     @property
     def walls_to_show(self) -> Walls | None:

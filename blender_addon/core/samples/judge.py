@@ -18,7 +18,7 @@ from .chosen import ChosenSamples
 from .decide import Plan, decide_on_faces
 from .density import percent
 from .doubts import Topology, worst_doubt
-from .next_amount import finer_in_pairs, next_amount, sharp_on_flat
+from .next_amount import CROSSED, finer_in_pairs, next_amount, pairs_cross, sharp_on_flat
 from .sample_spacing import Amount
 from .sides import decided
 
@@ -124,7 +124,7 @@ def _vertices(plan: Plan, analysed: Analysed, why: str) -> ChosenSamples:
 def _denser(plan: Plan, passes: tuple[Pass, ...]) -> Amount | None:
     """Return the amount of another pass without pairs, for Adaptive and Automatic; None where none is needed."""
     samples = passes[-1].samples
-    if len(passes) == 1 and compares(plan, samples) and samples.pairs_show_more:
+    if len(passes) == 1 and compares(plan, samples) and samples.walls_are_close:
         return None  # pairs see more between walls than smaller spacings
     if len(passes) >= plan.effort.passes:
         return None
@@ -178,7 +178,7 @@ def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
     start, *tried = compared
     if not tried:
         assert start.topology is not None
-        if not start.samples.pairs_show_more and not (
+        if not start.samples.walls_are_close and not (
             start.differences and len(start.topology.gaps)
         ):
             return None
@@ -192,8 +192,10 @@ def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
         return None
     if number == _PASSES or _are_hopeless(tried):
         return None
-    flat = trial.amount.flat or sharp_on_flat(plan, samples)
     assert trial.topology is not None
+    flat = trial.amount.flat or sharp_on_flat(plan, samples)
+    if not flat and trial.differences and pairs_cross(plan, samples, trial.topology):
+        return replace(plan.first, pairs=True, flat=CROSSED)
     return replace(finer_in_pairs(plan, samples, trial.topology, number, left), flat=flat)
 
 
@@ -247,6 +249,6 @@ def _of_passes(plan: Plan, samples: Analysed, passes: int) -> str:
 
 def _of_pairs(passes: tuple[Pass, ...], in_pairs: int) -> str:
     """Say why and how samples in pairs were taken."""
-    close = trials(passes)[0].samples.pairs_show_more
+    close = trials(passes)[0].samples.walls_are_close
     why = "the walls are thin" if close else "the topology was not that of the faces"
     return f"; {why}: samples in pairs" + (f" in {in_pairs} passes" if in_pairs > 1 else "")

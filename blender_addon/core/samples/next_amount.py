@@ -26,6 +26,12 @@ _AS_A_WHOLE = 0.2  # chosen: unseen
 # Edges that bend so many times less than those of the faces that a smooth surface leaves are no edges of the solid.
 _AS_BENT = 3.0  # chosen: unseen
 
+# Edges of close walls that bend more than this have places on one side whose partners lie beyond the opposite edge, by
+# more than the share of the distance of walls by which partners may be moved (`kMoved`, paired_samples.cpp).
+CROSSED = 2.0 * math.atan(
+    0.14
+)  # derived: half of the bend is the angle between a wall and the plane halfway
+
 
 def next_amount(plan: Plan, samples: Analysed, budget: int) -> Amount:
     """Return the amount of the next pass: the spacings that the density of this one requires.
@@ -68,6 +74,19 @@ def finer_in_pairs(
         sites = np.concatenate((sites, places))
         spacings = np.concatenate((spacings, apart))
     return Amount(budget, plan.first.spacing, sizing=(sites, spacings), pairs=True)
+
+
+def pairs_cross(plan: Plan, samples: Analysed, topology: Topology) -> bool:
+    """Return whether doubts lie beside edges of the faces that are rounded, and bend so much that pairs cross there.
+
+    On the flat faces such an edge has samples and partners of its own.
+    """
+    walls = samples.walls
+    if walls is None or walls.rows is None:
+        return False
+    bends = plan.given.shape.smooth_bends(plan.given.sharp)[walls.faces]
+    crossed = walls.rows[walls.are_of_sheets & (bends > CROSSED)]
+    return bool(np.isin(nearest(topology.places, samples.points), crossed).any())
 
 
 def _are_missed_as_a_whole(samples: Analysed) -> bool:

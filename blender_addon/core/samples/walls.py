@@ -22,7 +22,7 @@ from ..shape.triangles import FEW, some_of, unit_normals
 # Walls closer than this number of spacings get finer samples, until the walls are this number of spacings apart.
 _WANTED = 2.0  # chosen: axis
 # Between walls closer than this number of spacings the axis is missing or torn: 94 % of the sheet in a plate is found
-# at a thickness of one spacing, 93 % at 0.78, 59 % at 0.63, 16 % at 0.49, 2 % at 0.29.
+# at a thickness of one spacing, 93 % at 0.78, 59 % at 0.63, 16 % at 0.49, 2 % at 0.29. Between others it is there.
 _MISSED = 0.8  # measured: stage_sampling.md
 # Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
 # their distance; finer samples get this share.
@@ -74,14 +74,6 @@ class Walls(Places):
         return self.missed > FEW
 
     @property
-    def close(self) -> float:
-        """The share of the area whose walls are closer than samples without a partner should be apart."""
-        close = self.distance < _WANTED * self.spacing
-        if self.paired is not None:
-            close &= ~self.paired
-        return float(self.area[close].sum() / self.area.sum()) if len(self.area) else 0.0
-
-    @property
     def bulges(self) -> Flags:
         """(n,) where the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
         if self.bulge is None:
@@ -102,16 +94,22 @@ class Walls(Places):
         """The median distance of the walls that are missed."""
         return float(np.median(self.distance[self._are_missed]))
 
+    @property
+    def are_of_sheets(self) -> Flags:
+        """(n,) where walls bend at most half as much as the balls between them: in rods these touch them all round."""
+        assert self.bend is not None
+        apart = np.where(np.isfinite(self.distance), self.distance, 0.0)
+        return np.asarray((apart > 0.0) & (apart * self.bend <= 1.0))
+
     def plates(self, feature_size: Floats) -> Longs:
         """(k,) the samples at which the axis is the middle sheet between walls, and right whatever the spacing.
 
-        The feature size is that at each place, (n,). Walls have to bend half as much as the balls between them: in rods
-        these touch the wall all round.
+        The feature size is that at each place, (n,).
         """
-        assert self.rows is not None and self.bend is not None
-        apart = np.where(np.isfinite(self.distance), self.distance, 0.0)
-        wide = apart >= _WANTED * self.spacing
-        return self.rows[wide & (feature_size >= _MIDDLE * apart) & (apart * self.bend <= 1.0)]
+        assert self.rows is not None
+        wide = self.distance >= _MISSED * self.spacing
+        is_middle = feature_size >= _MIDDLE * self.distance
+        return self.rows[wide & is_middle & self.are_of_sheets]
 
     def wanted(self, finest: float) -> tuple[Floats, Floats]:
         """Return (k, 3) places between close walls, and (k,) the spacings that would show the axis there.
