@@ -1831,6 +1831,25 @@ def winding_number(
         Sum of the solid angles over 4 pi, up to rounding.
     """
 
+def surface_places(
+    queries: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """(q,) int32 and (q, 3) float64: the nearest triangle to each query, and its place there, as weights of corners.
+
+    Parameters
+    ----------
+    queries : (q, 3) float64
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        One at least; they may be without area. Of several that are as near the first one counts.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def surface_distances(
     queries: NDArray[np.float64],
     vertices: NDArray[np.float64],

@@ -20,6 +20,7 @@
 #include "mesh/even_sheet.h"
 #include "mesh/polygon_triangles.h"
 #include "mesh/wrap.h"
+#include "sampling/closest_on_flat.h"
 
 namespace medial::python {
 namespace {
@@ -167,26 +168,53 @@ py::array buried_points(const py::object& points, const py::object& normals, dou
   }));
 }
 
+// Checks queries and the surface that they are asked of.
+void require_queries(std::span<const Vec3> at, std::span<const Vec3> vertices,
+                     std::span<const Triangle> triangles) {
+  require_finite(at, "queries");
+  require_finite(vertices, "vertices");
+  require_corners(triangles, vertices.size());
+  if (triangles.empty()) {
+    throw InvalidInputError("Expected at least one triangle, found none; pass a surface.");
+  }
+}
+
 py::array surface_distances(const py::object& queries, const py::object& vertices,
                             const py::object& triangles, Progress* progress, int threads) {
   const Points asked(queries, "queries"), corners(vertices, "vertices");
   const Triangles faces(triangles);
   const Run run{thread_count(thread_argument(threads)), progress};
-  const auto at = asked.span(), rows = corners.span();
-  const auto face_span = faces.span();
-  require_finite(at, "queries");
-  require_finite(rows, "vertices");
-  require_corners(face_span, rows.size());
-  if (face_span.empty()) {
-    throw InvalidInputError("Expected at least one triangle, found none; pass a surface.");
-  }
+  const auto at = asked.span();
+  require_queries(at, corners.span(), faces.span());
   return array_of(released([&] {
-    const TriangleTree tree(rows, face_span);
+    const TriangleTree tree(corners.span(), faces.span());
     std::vector<double> result(at.size());
     parallel_for(static_cast<int64_t>(at.size()), run,
                  [&](int64_t i) { result[i] = tree.distance(at[i]); });
     return result;
   }));
+}
+
+py::tuple places_on_surface(const py::object& queries, const py::object& vertices,
+                            const py::object& triangles) {
+  const Points asked(queries, "queries"), corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const auto at = asked.span(), rows = corners.span();
+  const auto face_span = faces.span();
+  require_queries(at, rows, face_span);
+  std::vector<int32_t> nearest(at.size());
+  std::vector<Vec3> weights(at.size());
+  released([&] {
+    const TriangleTree tree(rows, face_span);
+    parallel_for(static_cast<int64_t>(at.size()), all_cores(), [&](int64_t i) {
+      nearest[i] = tree.nearest(at[i]);
+      const auto& [a, b, c] = face_span[nearest[i]];
+      const Barycentric place = closest_on_flat(rows[a], rows[b], rows[c], at[i]);
+      weights[i] = {place.a, place.b, place.c};
+    });
+    return 0;
+  });
+  return arrays_of(std::move(nearest), std::move(weights));
 }
 
 py::array distances_of_walls(const py::object& points, const py::object& normals,
@@ -241,6 +269,8 @@ void bind_surfaces(py::module_& m) {
   m.def("surface_distances", &surface_distances, docs::surface_distances, py::arg("queries"),
         py::arg("vertices"), py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr,
         py::arg("threads") = 0);
+  m.def("surface_places", &places_on_surface, docs::surface_places, py::arg("queries"),
+        py::arg("vertices"), py::arg("triangles"));
   m.def("buried", &buried_points, docs::buried, py::arg("points"), py::arg("normals"),
         py::arg("offset"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);

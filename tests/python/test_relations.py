@@ -99,7 +99,10 @@ def distances(medial, scale, **options):
     vertices, queries = random.normal(size=(300, 3)), random.normal(size=(9000, 3))
     triangles = random.integers(0, 300, (200, 3)).astype(np.int32)
     found = medial.surface_distances(scale * queries, scale * vertices, triangles, **options)
-    return {"distance": found}
+    row, weights = medial.surface_places(scale * queries, scale * vertices, triangles)
+    places = (weights[:, :, None] * scale * vertices[triangles[row]]).sum(axis=1)
+    assert found == pytest.approx(np.linalg.norm(scale * queries - places, axis=1), rel=1e-9)
+    return {"distance": found, "place": places}
 
 
 def outward(medial, scale, **options):

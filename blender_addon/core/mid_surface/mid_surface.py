@@ -35,7 +35,7 @@ from .carried_sheets import CarriedSheets, are_curved, carried
 from .cut_out_plates import cut_out_plate
 from .even_quads import even_quads
 from .even_triangles import even_triangles
-from .few_faces import are_uneven, few_faces
+from .few_faces import few_faces
 from .sheet_faces import SheetFaces
 from .sheet_walls import Walls
 from .thick_faces import ThickFaces, thick_faces
@@ -361,43 +361,18 @@ def _pieces(triangles: Ints) -> int:
 
 
 def _lengths(sheets: CarriedSheets, parts: int) -> Callable[[Floats, Ints], Floats]:
-    """The function of places and their sheets that returns the thickness there.
-
-    It is that of the nearest corner. In a sheet of uneven thickness it changes from there as around that corner.
-    """
-    part = np.repeat(sheets.part, 3)
-    places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
-    slopes, uneven = _slopes_at_corners(sheets), are_uneven(sheets)
+    """The function of places and their sheets that returns the thickness at the nearest place of the sheet."""
 
     def lengths(queries: Floats, of: Ints) -> Floats:
         found = np.zeros(len(queries))
         for number in range(parts):
-            rows, sites = np.flatnonzero(of == number), np.flatnonzero(part == number)
+            rows, own = np.flatnonzero(of == number), np.flatnonzero(sheets.part == number)
             if not len(rows):
                 continue
+            asked, triangles = queries[rows], sheets.triangles[own]
             with own_errors() as module:
-                nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
-            at = sites[nearest]
-            found[rows] = values[at]
-            if uneven[number]:
-                more = dot(slopes[at], queries[rows] - places[at])
-                found[rows] = np.clip(found[rows] + more, 0.0, values[sites].max())
+                nearest, weights = module.surface_places(asked, sheets.vertices, triangles)
+            found[rows] = dot(sheets.at_corners[own[nearest]], weights)
         return found
 
     return lengths
-
-
-def _slopes_at_corners(sheets: CarriedSheets) -> Floats:
-    """(3 t, 3) the slope of the thickness around each corner: the mean, by area, of the triangles of its sheet."""
-    key = sheets.part[:, None] * np.int64(len(sheets.vertices)) + sheets.triangles
-    pairs, row = np.unique(key, return_inverse=True)
-    row = row.reshape(key.shape)
-    corners = sheets.vertices[sheets.triangles]
-    normals, doubled = unit_normals(corners)
-    opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
-    each = (np.cross(normals[:, None], opposite) * sheets.at_corners[:, :, None]).sum(axis=1)
-    whole = summed(row, doubled[:, None], len(pairs))
-    slopes = summed(row, each[:, None], len(pairs)) / np.where(whole > 0.0, whole, np.inf)[:, None]
-    steep = np.sqrt(dot(slopes, slopes))
-    slopes *= (1.0 / np.maximum(steep, 1.0))[:, None]  # where walls face each other it is less
-    return slopes[row.ravel()]

@@ -18,7 +18,8 @@ double squared_distance_to_segment(const Vec3& a, const Vec3& b, const Vec3& que
 TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   triangles_.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    triangles_.push_back({vertices[a], vertices[b], vertices[c]});
+    const auto row = static_cast<int32_t>(triangles_.size());
+    triangles_.push_back({vertices[a], vertices[b], vertices[c], row});
   }
   const auto describe = [&](BoxNode& node) {
     for (int32_t i = node.begin; i < node.end; ++i) {
@@ -36,23 +37,23 @@ TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Trian
   build_tree(nodes_, 0, static_cast<int32_t>(triangles_.size()), kLeafOfTree, describe, split);
 }
 
-double TriangleTree::distance(const Vec3& query) const {
-  double squared = HUGE_VAL;
+TriangleTree::Nearest TriangleTree::found(const Vec3& query) const {
+  Nearest best;
   // No triangle of a node is nearer than its box, up to rounding.
   visit_nearest(
       nodes_, 0, [&](const BoxNode& node) { return medial::squared_distance(node.box, query); },
-      [&] { return squared; },
+      [&] { return best.squared; },
       [&](const BoxNode& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
-          squared = std::min(squared, squared_distance(triangles_[i], query));
+          best = std::min(best, {squared_distance(triangles_[i], query), triangles_[i].row});
         }
       });
-  return std::sqrt(squared);
+  return best;
 }
 
 // Measures to the plane if the query projects into the triangle, else to the nearest of its sides.
 double TriangleTree::squared_distance(const Corners& triangle, const Vec3& query) {
-  const auto& [a, b, c] = triangle;
+  const auto& [a, b, c, row] = triangle;
   const Vec3 normal = cross(b - a, c - a);
   const double area = squared_length(normal);
   const auto left_of = [&](const Vec3& p, const Vec3& q) {

@@ -17,12 +17,24 @@ class TriangleTree {
   TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
   // Returns the distance from a point to the nearest triangle.
-  double distance(const Vec3& query) const;
+  double distance(const Vec3& query) const { return std::sqrt(found(query).squared); }
+  // Returns the row of the nearest triangle; the first one of several.
+  int32_t nearest(const Vec3& query) const { return found(query).row; }
 
  private:
   struct Corners {
     Vec3 a, b, c;
+    int32_t row;
   };
+  struct Nearest {
+    double squared = HUGE_VAL;
+    int32_t row = -1;
+    bool operator<(const Nearest& other) const {
+      return std::tie(squared, row) < std::tie(other.squared, other.row);
+    }
+  };
+
+  Nearest found(const Vec3& query) const;
 
   static double squared_distance(const Corners& triangle, const Vec3& query);
 
