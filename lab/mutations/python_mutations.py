@@ -33,6 +33,35 @@ MUTATIONS = (
         "balls where sheets meet are as large as the thickest",
         "test_mid_surface.py",
     ),
+    _bug(
+        "mid_surface/mid_surface.py",
+        "dot(sheets.at_corners[own[nearest]], weights)",
+        "dot(sheets.at_corners[nearest], weights)",
+        "sheets have the thickness of others",
+        "test_mid_surface.py",
+    ),
+    # ---- samples
+    _bug(
+        "samples/walls.py",
+        "wide & (feature_size >= _MIDDLE * self.distance)",
+        "wide & (feature_size >= 2.0 * self.distance)",
+        "no sample is on a plate",
+        "test_walls.py",
+    ),
+    _bug(
+        "samples/next_amount.py",
+        "walls.rows[walls.are_of_sheets & (bends > CROSSED)]",
+        "walls.rows[bends > CROSSED]",
+        "edges of thin bars are taken for those of walls",
+        "test_thin_radii.py",
+    ),
+    _bug(
+        "samples/judge.py",
+        "return replace(plan.first, pairs=True, flat=CROSSED)",
+        "return replace(plan.first, pairs=True)",
+        "pairs cross at rounded edges again",
+        "test_pairs.py",
+    ),
     # ---- machine
     _bug(
         "machine/cache.py",

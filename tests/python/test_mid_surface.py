@@ -320,6 +320,8 @@ def test_sheets_of_a_pot_with_flat_sides_are_polygons():
     """Sheets of two thicknesses meet round its bottom."""
     found = sheets_of(pot(8, 0.05))
     assert (found.sheets, len(found.part), len(found.vertices)) == (9, 9, 16)
+    bottom, *sides = found.thickness
+    assert bottom == pytest.approx(0.05) and sides == pytest.approx(8 * [0.050648], abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["profile_t", "bent_sheet"])

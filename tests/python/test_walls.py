@@ -294,10 +294,16 @@ def test_the_walls_of_a_pipe_need_no_second_pass():
     assert len(dense.samples.points) > 2 * len(chosen.samples.points)
 
 
-def test_a_rod_is_no_plate():
-    """Balls touch the wall of a rod all round, so that few samples would show another axis."""
-    share, _ = plates_of(lathe([(0, 0), (0.2, 0), (0.2, 3), (0, 3)], 48), 0.033)
-    assert share < 0.1
+def test_the_line_in_a_rod_needs_no_second_pass_either():
+    radius, sides = 0.05, 48
+    mesh = lathe([(0, 0), (radius, 0), (radius, 3), (0, 3)], sides)
+    share, chosen = plates_of(mesh, 0.0165)
+    assert share > 0.8 and len(chosen.samples.points) < 4500
+    axis = compute(*mesh, Settings(samples=4000)).axis
+    line = np.setdiff1d(axis.edges, axis.face_vertices)
+    assert axis.level.betti == (1, 0, 0) and len(line) > 100
+    assert np.linalg.norm(axis.vertices[line, :2], axis=1).max() < 1e-3 * radius
+    assert axis.radius[line] == pytest.approx(radius, rel=2e-3)
 
 
 @pytest.mark.parametrize("wall, is_plate", [(0.12, True), (0.08, True), (0.04, False)])

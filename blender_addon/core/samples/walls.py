@@ -96,20 +96,22 @@ class Walls(Places):
 
     @property
     def are_of_sheets(self) -> Flags:
-        """(n,) where walls bend at most half as much as the balls between them: in rods these touch them all round."""
-        assert self.bend is not None
-        apart = np.where(np.isfinite(self.distance), self.distance, 0.0)
-        return np.asarray((apart > 0.0) & (apart * self.bend <= 1.0))
+        """(n,) where walls bend at most half as much as the balls between them: in rods these touch them all round.
+
+        Only samples with a partner know how the walls bend.
+        """
+        assert self.bend is not None and self.paired is not None
+        known = self.paired & np.isfinite(self.distance)
+        return np.asarray(known & (np.where(known, self.distance, 0.0) * self.bend <= 1.0))
 
     def plates(self, feature_size: Floats) -> Longs:
-        """(k,) the samples at which the axis is the middle sheet between walls, and right whatever the spacing.
+        """(k,) the samples at which the axis is halfway between walls, and right whatever the spacing.
 
         The feature size is that at each place, (n,).
         """
         assert self.rows is not None
-        wide = self.distance >= _MISSED * self.spacing
-        is_middle = feature_size >= _MIDDLE * self.distance
-        return self.rows[wide & is_middle & self.are_of_sheets]
+        wide = np.isfinite(self.distance) & (self.distance >= _MISSED * self.spacing)
+        return self.rows[wide & (feature_size >= _MIDDLE * self.distance)]
 
     def wanted(self, finest: float) -> tuple[Floats, Floats]:
         """Return (k, 3) places between close walls, and (k,) the spacings that would show the axis there.
