@@ -121,9 +121,7 @@ MUTATIONS = (
         "heads = near[:, [1, 2, 2, 0, 0, 1]].ravel()",
         "heads = near[:, [1, 2, 2, 0, 0, 0]].ravel()",
         "noise misses one of the neighbours",
-        "test_density.py",
-        "test_thickness.py",
-        "test_sampling.py",
+        "test_noise.py",
     ),
     _bug(
         "shape/shape.py",
