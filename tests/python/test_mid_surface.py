@@ -203,10 +203,7 @@ def middles_of(found):
 
 @pytest.mark.parametrize("t, rim, face", [(0.05, 0.005, 0.005), (0.03, 0.02, 0.01)])
 def test_a_lens_with_a_flat_rim_keeps_its_thickness_there(t, rim, face):
-    """Its walls are those of the leaf, but its rim is a wall of half of the thickness in the middle.
-
-    Faces beside slivers of the axis had up to 1.25 of their thickness.
-    """
+    """Its rim is a wall of half of the thickness in the middle. Faces beside slivers had 1.25 of their thickness."""
     radius = 0.5**0.5
     x = np.linspace(0.0, radius, 18)
     height = 0.5 * t * (1.0 - x**2)

@@ -295,15 +295,14 @@ def test_the_walls_of_a_pipe_need_no_second_pass():
 
 
 def test_the_line_in_a_rod_needs_no_second_pass_either():
-    radius, sides = 0.05, 48
-    mesh = lathe([(0, 0), (radius, 0), (radius, 3), (0, 3)], sides)
+    mesh = lathe([(0, 0), (0.05, 0), (0.05, 3), (0, 3)], 48)
     share, chosen = plates_of(mesh, 0.0165)
     assert share > 0.8 and len(chosen.samples.points) < 4500
     axis = compute(*mesh, Settings(samples=4000)).axis
     line = np.setdiff1d(axis.edges, axis.face_vertices)
     assert axis.level.betti == (1, 0, 0) and len(line) > 100
-    assert np.linalg.norm(axis.vertices[line, :2], axis=1).max() < 1e-3 * radius
-    assert axis.radius[line] == pytest.approx(radius, rel=2e-3)
+    assert np.linalg.norm(axis.vertices[line, :2], axis=1).max() < 5e-5
+    assert axis.radius[line] == pytest.approx(0.05, rel=2e-3)
 
 
 @pytest.mark.parametrize("wall, is_plate", [(0.12, True), (0.08, True), (0.04, False)])

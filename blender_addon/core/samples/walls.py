@@ -96,10 +96,7 @@ class Walls(Places):
 
     @property
     def are_of_sheets(self) -> Flags:
-        """(n,) where walls bend at most half as much as the balls between them: in rods these touch them all round.
-
-        Only samples with a partner know how the walls bend.
-        """
+        """(n,) the samples with partners where walls bend at most half as much as the balls between them."""
         assert self.bend is not None and self.paired is not None
         known = self.paired & np.isfinite(self.distance)
         return np.asarray(known & (np.where(known, self.distance, 0.0) * self.bend <= 1.0))
