@@ -28,8 +28,8 @@ MUTATIONS = (
     # ---- mid_surface
     _bug(
         "mid_surface/few_faces.py",
-        "if not are_uneven(sheets).any():",
-        "if are_uneven(sheets).all():",
+        "if not _are_uneven(sheets).any():",
+        "if _are_uneven(sheets).all():",
         "balls where sheets meet are as large as the thickest",
         "test_mid_surface.py",
     ),
@@ -110,8 +110,8 @@ MUTATIONS = (
     ),
     _bug(
         "samples/density.py",
-        "return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH",
-        "return bool(self.at_edge.any()) or self.share <= DENSE_ENOUGH",
+        "return bool(self.at_edge.all()) or self.share <= _DENSE_ENOUGH",
+        "return bool(self.at_edge.any()) or self.share <= _DENSE_ENOUGH",
         "one sample at a sharp edge makes all samples dense enough",
         "test_density.py",
         "test_sampling.py",

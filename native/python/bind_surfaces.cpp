@@ -212,7 +212,6 @@ py::tuple places_on_surface(const py::object& queries, const py::object& vertice
       const Barycentric place = closest_on_flat(rows[a], rows[b], rows[c], at[i]);
       weights[i] = {place.a, place.b, place.c};
     });
-    return 0;
   });
   return arrays_of(std::move(nearest), std::move(weights));
 }

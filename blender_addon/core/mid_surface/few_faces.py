@@ -107,7 +107,7 @@ def _reduced(
     return SheetFaces(places, offsets, corners, sheet[part])
 
 
-def are_uneven(sheets: CarriedSheets) -> Flags:
+def _are_uneven(sheets: CarriedSheets) -> Flags:
     """(parts,) the sheets whose thickness differs much from its mean on most of them, and not at single vertices."""
     parts = int(sheets.part.max()) + 1
     area = unit_normals(sheets.vertices[sheets.triangles])[1]
@@ -121,7 +121,7 @@ def are_uneven(sheets: CarriedSheets) -> Flags:
 
 def _radii(sheets: CarriedSheets) -> Floats:
     """(v,) the radii by which the sheets are simplified: one for all where each sheet is evenly thick."""
-    if not are_uneven(sheets).any():
+    if not _are_uneven(sheets).any():
         return np.full(len(sheets.vertices), 0.5 * float(sheets.at_corners.mean()))
     radius = np.zeros(len(sheets.vertices))
     np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)

@@ -21,7 +21,7 @@ from ..shape.nearness import near
 from ..small_matrices import length_of
 
 # No new pass is needed while at most this share of the samples is too sparse for the theorem.
-DENSE_ENOUGH = 0.1  # chosen: midsurface
+_DENSE_ENOUGH = 0.1  # chosen: midsurface
 # Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as
 # much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
@@ -86,13 +86,13 @@ class Density:
     @cached_property
     def dense_enough(self) -> bool:
         """Whether another pass would change little, as it does at sharp edges."""
-        return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH
+        return bool(self.at_edge.all()) or self.share <= _DENSE_ENOUGH
 
     def is_improved_by(self, spacing: float) -> bool:
         """Return whether even samples with this spacing are denser where it matters; in noise they are not."""
         area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
         too_wide = (self.epsilon > self.limit) & (self.spacing > HOLE * spacing)
-        return area[too_wide].sum() > DENSE_ENOUGH * area.sum()
+        return area[too_wide].sum() > _DENSE_ENOUGH * area.sum()
 
     @cached_property
     def worst(self) -> list[tuple[tuple[float, ...], float]]:
