@@ -313,8 +313,8 @@ def test_cgal_has_one_home():
 
 
 def test_boost_has_one_home():
-    """Only the exact circumcentres need its integers; headers that CGAL includes by itself do not count."""
-    assert users_of("boost/") == [MEDIAL / "delaunay" / "circumcentre.cpp"]
+    """Predicates and circumcentres share its integers; headers that CGAL includes by itself do not count."""
+    assert users_of("boost/") == [MEDIAL / "base" / "exact_integer.h"]
 
 
 def test_the_system_has_one_home():

@@ -43,7 +43,7 @@ def find_bare(
     # would be left out.
     if shape.volume < 0:
         return np.ones(len(feet), bool), 0
-    narrow, found = _are_buried(shape, feet, normals, _OFF * spacing)
+    narrow, found, _ = _are_buried(shape, feet, normals, _OFF * spacing)
     if gaps and np.count_nonzero(found) <= _FEW * len(found):
         return ~found, int(np.count_nonzero(found))
     bare = _outside_clefts(shape, feet, normals, spacing, found)
@@ -96,19 +96,16 @@ def sides_of_faces(
     """
     corners = shape.points[shape.triangles[rows]]
     normals, areas = unit_normals(corners)
-    places, off = corners.mean(axis=1), _OFF * spacing
-    buried, _ = _are_buried(shape, places, normals, off)
-    inside, rows = buried.copy(), np.flatnonzero(buried)
-    with native.own_errors() as module:
-        above = module.winding_number(
-            places[rows] + off * normals[rows], shape.points, shape.triangles
-        )
-    inside[rows] = above > 0.5
-    return areas, buried, inside
+    buried, _, above = _are_buried(shape, corners.mean(axis=1), normals, _OFF * spacing)
+    return areas, buried, buried & above
 
 
-def _are_buried(shape: Shape, points: Floats, normals: Floats, off: float) -> tuple[Flags, Flags]:
+def _are_buried(
+    shape: Shape, points: Floats, normals: Floats, off: float
+) -> tuple[Flags, Flags, Flags]:
     """(n,) mark the points at which the surface bounds nothing, with those in gaps narrower than `off`, and without.
+
+    The third marks are the first ones with the solid above them, at the distance `off`.
 
     Both sides are tested at the distance `off`, and closer where that is beyond a thin wall or gap. Walls and gaps no
     thicker than the rounding of their corners are none.
@@ -117,13 +114,12 @@ def _are_buried(shape: Shape, points: Floats, normals: Floats, off: float) -> tu
     with native.own_errors() as module:
         narrow = module.buried(points, normals, off, *faces).copy()
         rows = np.flatnonzero(narrow)
-        far, close, below = (
-            module.winding_number(points[rows] + away * normals[rows], *faces) > 0.5
-            for away in (off, shape.rounding, -shape.rounding)
-        )
-    found = narrow.copy()
-    narrow[rows], found[rows] = far == below, close == below
-    return narrow, found & narrow
+        heights = np.array([off, shape.rounding, -shape.rounding])[:, None, None]
+        looks = (points[rows] + heights * normals[rows]).reshape(-1, 3)
+        far, close, below = module.winding_number(looks, *faces).reshape(3, -1) > 0.5
+    found, above = narrow.copy(), np.zeros(len(points), np.bool_)
+    narrow[rows], found[rows], above[rows] = far == below, close == below, far
+    return narrow, found & narrow, above
 
 
 def on_flat_faces(shape: Shape, found: Any, faces: Ints, spacing: float) -> tuple[Floats, Floats]:

@@ -2,14 +2,13 @@
 #include "delaunay/circumcentre.h"
 
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cfloat>
 #include <climits>
 
+#include "base/exact_integer.h"
+
 namespace medial {
 namespace {
-
-using Integer = boost::multiprecision::cpp_int;
 
 struct ExactVec3 {
   Integer x, y, z;
@@ -27,18 +26,8 @@ ExactVec3 cross(const ExactVec3& a, const ExactVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Returns the exponent e of the last mantissa bit: x is an integer multiple of 2^e.
-int last_bit(double x) { return x == 0 ? INT_MAX : std::ilogb(x) - (DBL_MANT_DIG - 1); }
-
 int common_last_bit(const Vec3& p) {
   return std::min({last_bit(p.x), last_bit(p.y), last_bit(p.z)});
-}
-
-Integer times_power_of_two(double x, int last) {
-  if (x == 0) return 0;
-  const int shift = last_bit(x);
-  const Integer mantissa = static_cast<long long>(std::ldexp(x, -shift));
-  return mantissa << (shift - last);
 }
 
 ExactVec3 exact(const Vec3& p, int last) {
