@@ -52,6 +52,18 @@ MUTATIONS = (
         "the highest id stands for a set",
     ),
     Mutation(
+        "base/filtered_kernel.h",
+        "0x1p-47 * error",
+        "0x1p-67 * error",
+        "twice the digits count as more than they are",
+    ),
+    Mutation(
+        "base/exact_integer.h",
+        "const int shift = last_bit(x);",
+        "const int shift = last_bit(x) + 1;",
+        "integers of doubles lose the last digit",
+    ),
+    Mutation(
         "base/polygon_edges.cpp",
         "corner + 1 < end ? corner + 1 : begin",
         "corner + 1 < end ? corner + 1 : corner",
