@@ -48,16 +48,8 @@ GOOD = {
 }
 GOOD = {name: x.encode() if isinstance(x, str) else x for name, x in GOOD.items()}
 WORDS = [
-    b"99999999999999999999",
-    b"-1",
-    b"1e999",
-    b"nan",
-    b"\0",
-    b"\xff\xfe",
-    b"",
-    b"0x1p9",
-    b"list",
-]
+    b"99999999999999999999", b"-1", b"1e999", b"nan", b"\0", b"\xff\xfe", b"", b"0x1p9", b"list",
+]  # fmt: skip
 
 
 def mutated(data, random):

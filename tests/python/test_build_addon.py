@@ -369,13 +369,9 @@ def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(tmp_path,
 
 def test_clean_removes_what_was_made(tmp_path, monkeypatch):
     for name in (
-        "build/release/x",
-        "dist/a.zip",
-        "blender_addon/lib/m.so",
-        "core/__pycache__/a.pyc",
-        "demo_output/a.png",
-        "keep.py",
-    ):
+        "build/release/x", "dist/a.zip", "blender_addon/lib/m.so", "core/__pycache__/a.pyc",
+        "demo_output/a.png", "keep.py",
+    ):  # fmt: skip
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x", encoding="utf-8")
     for name, path in {

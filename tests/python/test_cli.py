@@ -328,18 +328,8 @@ def test_frames():
 
 
 DEVICES = (
-    "CON",
-    "nul",
-    "Aux",
-    "prn",
-    "COM1",
-    "com9",
-    "LPT1",
-    "COM¹",
-    "CONIN$",
-    "NUL.txt",
-    "con .x",
-)
+    "CON", "nul", "Aux", "prn", "COM1", "com9", "LPT1", "COM¹", "CONIN$", "NUL.txt", "con .x",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("name", [".", "..", "...", "Body.", "Body ", " ", *DEVICES])

@@ -26,15 +26,9 @@ MODEL = """<mujoco><worldbody><body><geom type="box" size="2 1 1"/></body></worl
 
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
-    "python3",
-    "medial_axis",
-    "medial-axis",
-    "blender",
-    "cmake",
-    "pip",
-    "openjd",
+    "python3", "medial_axis", "medial-axis", "blender", "cmake", "pip", "openjd",
     "build_addon.py",
-)
+)  # fmt: skip
 SPAN = re.compile(r"`([^`\n]+)`")
 
 # How commands begin -> the tests that run them, as file::function.

@@ -13,13 +13,9 @@ from support.shapes import SHAPES
 pytestmark = pytest.mark.oracle
 
 BETTI = {
-    "ellipsoid": (1, 0, 0),
-    "oblate": (1, 0, 0),
-    "slab": (1, 0, 0),
-    "shell": (1, 0, 1),
-    "torus": (1, 1, 0),
-    "knot": (1, 1, 0),
-}
+    "ellipsoid": (1, 0, 0), "oblate": (1, 0, 0), "slab": (1, 0, 0), "shell": (1, 0, 1),
+    "torus": (1, 1, 0), "knot": (1, 1, 0),
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")

@@ -265,16 +265,12 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
         **{"err": 3e-3, "cov": 8e-3, "cov_99": 4e-3, "gap": 0.055, "crossings": 1},
     },
     ("oblate", 4_000): {
-        "err": 5e-3,
-        "err_99": 3.3e-3,
-        "cov": 3.2e-3,
-        "cov_99": 1.3e-3,
-        "ball": 2e-4,
+        "err": 5e-3, "err_99": 3.3e-3, "cov": 3.2e-3, "cov_99": 1.3e-3, "ball": 2e-4,
     },
     ("oblate", 20_000): {"err": 5e-3, "err_99": 1.3e-3, "cov": 8e-3, "cov_99": 8e-4},
     ("ellipsoid", 4_000): {"err": 5e-3, "err_99": 4e-3, "cov": 3.2e-3, "cov_99": 1.4e-3},
     ("ellipsoid", 20_000): {"err": 4.5e-3, "err_99": 1.5e-3, "cov": 8e-3, "cov_99": 9e-4},
-}
+}  # fmt: skip
 
 
 def bars(case: Case) -> Bars:

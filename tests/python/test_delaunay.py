@@ -12,16 +12,10 @@ pytestmark = pytest.mark.oracle
 @pytest.mark.parametrize(
     "kind, n",
     [
-        ("cube", 1000),
-        ("gauss", 3000),
-        ("cube", 20000),
-        ("ellipsoid", 5000),
-        ("shell", 10000),
-        ("torus", 20000),
-        ("knot", 20000),
-        ("graded", 2000),
+        ("cube", 1000), ("gauss", 3000), ("cube", 20000), ("ellipsoid", 5000), ("shell", 10000),
+        ("torus", 20000), ("knot", 20000), ("graded", 2000),
     ],
-)
+)  # fmt: skip
 def test_cells_equal_qhull(study, kind, n):
     points = inputs.generic(kind, n, 1)
     cells, _neighbors, _ = study.delaunay(points)

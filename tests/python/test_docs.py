@@ -25,29 +25,13 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
 SOURCES = ("native", "blender_addon", "tests", "tools", "lab", "docs")
 STARTS = (
-    "lab/native",
-    "",
-    "native",
-    "native/medial",
-    "blender_addon",
-    "blender_addon/core",
-    "tests",
+    "lab/native", "", "native", "native/medial", "blender_addon", "blender_addon/core", "tests",
     "lab",
-)
+)  # fmt: skip
 TEXTS = {
-    ".py",
-    ".pyi",
-    ".h",
-    ".cpp",
-    ".txt",
-    ".cmake",
-    ".toml",
-    ".sh",
-    ".js",
-    ".yaml",
-    ".json",
+    ".py", ".pyi", ".h", ".cpp", ".txt", ".cmake", ".toml", ".sh", ".js", ".yaml", ".json",
     ".map",
-}
+}  # fmt: skip
 
 # Words that do not occur in the sources, each with its origin.
 FOREIGN = {
@@ -242,21 +226,10 @@ def test_names_of_the_library_in_the_examples_are_there():
 # --- the stage pages
 
 STAGES = (
-    "stage_sampling",
-    "stage_scan",
-    "stage_delaunay",
-    "stage_inside",
-    "stage_tight_cocone",
-    "stage_selection",
-    "hierarchy",
-    "stage_even",
-    "stage_crisp",
-    "stage_skeleton",
-    "stage_thickness",
-    "stage_balls",
-    "stage_small_mesh",
-    "stage_mid_surface",
-)
+    "stage_sampling", "stage_scan", "stage_delaunay", "stage_inside", "stage_tight_cocone",
+    "stage_selection", "hierarchy", "stage_even", "stage_crisp", "stage_skeleton",
+    "stage_thickness", "stage_balls", "stage_small_mesh", "stage_mid_surface",
+)  # fmt: skip
 HEADINGS = ["What", "Code", "Options", "Quality", "Cost", "Source"]
 
 

@@ -15,13 +15,9 @@ FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
 # Shares of the diagonal: what the worst hundredth of the axis is missed by, and the mean error of vertices.
 CURVED = {
-    "cylinder": (1e-3, 5e-5),
-    "cone": (1e-3, 1e-6),
-    "plate": (1e-3, 1e-7),
-    "stadium": (1e-3, 5e-5),
-    "oblate": (1e-3, 2e-4),
-    "ellipsoid": (1e-3, 2e-4),
-}
+    "cylinder": (1e-3, 5e-5), "cone": (1e-3, 1e-6), "plate": (1e-3, 1e-7),
+    "stadium": (1e-3, 5e-5), "oblate": (1e-3, 2e-4), "ellipsoid": (1e-3, 2e-4),
+}  # fmt: skip
 REAL = ("spot_low.obj", "hand_closed.obj", "fandisk_large.off")
 
 

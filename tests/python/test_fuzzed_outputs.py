@@ -50,15 +50,8 @@ def folder(tmp_path, monkeypatch):
 
 
 INPUTS = (
-    "a.off",
-    "b.obj",
-    "with space.obj",
-    "sub/a.off",
-    "sub/b.obj",
-    "c.npz",
-    "hard.off",
-    "soft.obj",
-)
+    "a.off", "b.obj", "with space.obj", "sub/a.off", "sub/b.obj", "c.npz", "hard.off", "soft.obj",
+)  # fmt: skip
 
 
 def alias(rng, name, folder):
@@ -73,18 +66,11 @@ def words_of(rng, folder):
     kind = rng.choice(KINDS[command])
     output = rng.choice(
         (
-            "out/new." + kind,
-            "old." + kind,
-            alias(rng, rng.choice(INPUTS), folder),
-            f"{{name}}.{kind}",
-            f"sub/{{name}}.{kind}",
-            f"linked/{{name}}.{kind}",
-            ".",
-            "out/",
-            "sub/",
-            str(folder),
+            "out/new." + kind, "old." + kind, alias(rng, rng.choice(INPUTS), folder),
+            f"{{name}}.{kind}", f"sub/{{name}}.{kind}", f"linked/{{name}}.{kind}", ".", "out/",
+            "sub/", str(folder),
         )
-    )
+    )  # fmt: skip
     options = ["--format", kind] if output.rpartition(".")[2] not in KINDS[command] else []
     options += rng.choice(([], ["--json"]))
     return [*COMMANDS[command], *inputs, output, *options, *FEW], inputs

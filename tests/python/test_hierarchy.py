@@ -19,21 +19,12 @@ from support.shapes import SHAPES
 pytestmark = pytest.mark.oracle
 
 THRESHOLDS = [
-    {},
-    {"spacings": 1.0},
-    {"spacings": 2.0, "limb": 0.0},
-    {"sheet": 0.01},
-    {"sheet": 0.05, "limb": math.inf},
-    {"erosion": 0.002},
-    {"erosion": 0.02, "limb": 0.01},
-    {"sheet": 0.02, "erosion": 0.01, "limb": 0.1},
-    {"spike": 0.005},
-    {"spike": 0.03, "sheet": 0.01, "limb": 0.0},
-    {"spike": math.inf},
-    {"sheet": math.inf},
-    {"sheet": math.inf, "limb": 0.0},
-    {"sheet": math.inf, "limb": math.inf},
-]
+    {}, {"spacings": 1.0}, {"spacings": 2.0, "limb": 0.0}, {"sheet": 0.01},
+    {"sheet": 0.05, "limb": math.inf}, {"erosion": 0.002}, {"erosion": 0.02, "limb": 0.01},
+    {"sheet": 0.02, "erosion": 0.01, "limb": 0.1}, {"spike": 0.005},
+    {"spike": 0.03, "sheet": 0.01, "limb": 0.0}, {"spike": math.inf}, {"sheet": math.inf},
+    {"sheet": math.inf, "limb": 0.0}, {"sheet": math.inf, "limb": math.inf},
+]  # fmt: skip
 
 KEYS = ("sheet", "spacings", "erosion", "spike")  # of facets
 
@@ -266,15 +257,10 @@ def test_limb_of_a_capsule_is_half_its_axis(sampled):
 
 # (noise, shape) -> 99th percentile of the distances of the clean level's area to the axis; of curves the largest
 NOISY = {
-    (0.1, "oblate"): 1.1e-2,
-    (0.1, "slab"): 3.2e-2,
-    (0.1, "box"): 1.1e-2,
-    (0.1, "torus"): 1.2e-2,
-    (0.1, "knot"): 1.8e-2,
-    (0.25, "oblate"): 4.1e-2,
-    (0.25, "slab"): 5.0e-2,
+    (0.1, "oblate"): 1.1e-2, (0.1, "slab"): 3.2e-2, (0.1, "box"): 1.1e-2, (0.1, "torus"): 1.2e-2,
+    (0.1, "knot"): 1.8e-2, (0.25, "oblate"): 4.1e-2, (0.25, "slab"): 5.0e-2,
     (0.25, "box"): 2.3e-2,
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("noise, name", NOISY)
@@ -397,17 +383,11 @@ def test_what_it_refuses(medial):
 # --- real meshes, as one click samples them
 
 MESHES = {
-    "3holes.off": (1, 3, 0),
-    "rocker-arm.off": (1, 1, 0),
-    "knot1.off": (1, 1, 0),
-    "hand_closed.obj": (1, 0, 0),
-    "spot_low.obj": (1, 0, 0),
-    "mannequin.off": (1, 0, 0),
-    "fandisk_large.off": (1, 0, 0),
-    "dilo.off": (1, 0, 0),
-    "liver.ply": (1, 0, 0),
+    "3holes.off": (1, 3, 0), "rocker-arm.off": (1, 1, 0), "knot1.off": (1, 1, 0),
+    "hand_closed.obj": (1, 0, 0), "spot_low.obj": (1, 0, 0), "mannequin.off": (1, 0, 0),
+    "fandisk_large.off": (1, 0, 0), "dilo.off": (1, 0, 0), "liver.ply": (1, 0, 0),
     "igea.ply": (1, 0, 0),
-}
+}  # fmt: skip
 LARGE = ("liver.ply", "igea.ply")
 
 

@@ -347,18 +347,12 @@ def test_reading_does_not_change_the_file(file):
 @pytest.mark.parametrize(
     "name, vertices, faces",
     [
-        ("3holes.off", 3596, 7200),
-        ("knot1.off", 3200, 6400),
-        ("mannequin.off", 11703, 23402),
-        ("fandisk_large.off", 15843, 31682),
-        ("club.off", 9597, 19136),
-        ("foot.off", 10010, 20016),
-        ("screwdriver.off", 27152, 54300),
-        ("dilo.off", 27174, 54344),
-        ("rocker-arm.off", 10044, 20088),
-        ("elephant-with-holes.off", 2798, 4463),
+        ("3holes.off", 3596, 7200), ("knot1.off", 3200, 6400), ("mannequin.off", 11703, 23402),
+        ("fandisk_large.off", 15843, 31682), ("club.off", 9597, 19136),
+        ("foot.off", 10010, 20016), ("screwdriver.off", 27152, 54300), ("dilo.off", 27174, 54344),
+        ("rocker-arm.off", 10044, 20088), ("elephant-with-holes.off", 2798, 4463),
     ],
-)
+)  # fmt: skip
 def test_meshes(data_file, name, vertices, faces):
     found = import_points(data_file(name))
     tokens = data_file(name).read_bytes().split()[4:]
@@ -379,16 +373,11 @@ def grid(step, offset):
 @pytest.mark.parametrize(
     "points",
     [
-        grid(0.1, 0.0),
-        grid(0.1, 1000.0),
-        grid(1.0, 5e5),
-        grid(1e-9, 0.0),
-        grid(1e30, 0.0),
-        np.full((5, 3), 0.1),
-        grid(0.1, 0.0)[:1],
+        grid(0.1, 0.0), grid(0.1, 1000.0), grid(1.0, 5e5), grid(1e-9, 0.0), grid(1e30, 0.0),
+        np.full((5, 3), 0.1), grid(0.1, 0.0)[:1],
     ],
     ids=["at home", "not far", "whole numbers", "tiny", "huge", "one place", "one point"],
-)
+)  # fmt: skip
 def test_float32_is_enough(points):
     assert rounding_warning(points) is None
 

@@ -174,15 +174,9 @@ def test_stage_arrays_have_the_documented_types(study):
     offsets, triangles = study.umbrellas(points)
     winding = study.winding_number(points, *meshes.icosphere(1))
     for array, dtype in (
-        (cells, "i4"),
-        (neighbors, "i4"),
-        (centres, "f8"),
-        (vectors, "f8"),
-        (unbounded, "?"),
-        (offsets, "i8"),
-        (triangles, "i4"),
-        (winding, "f8"),
-    ):
+        (cells, "i4"), (neighbors, "i4"), (centres, "f8"), (vectors, "f8"), (unbounded, "?"),
+        (offsets, "i8"), (triangles, "i4"), (winding, "f8"),
+    ):  # fmt: skip
         assert array.dtype == np.dtype(dtype) and not array.flags.writeable
 
 

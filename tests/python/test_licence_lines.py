@@ -10,19 +10,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 SUFFIXES = {
-    ".py",
-    ".pyi",
-    ".sh",
-    ".cmake",
-    ".yaml",
-    ".yml",
-    ".toml",
-    ".map",
-    ".cpp",
-    ".h",
-    ".js",
-    ".css",
-}
+    ".py", ".pyi", ".sh", ".cmake", ".yaml", ".yml", ".toml", ".map", ".cpp", ".h", ".js", ".css",
+}  # fmt: skip
 NAMES = {"CMakeLists.txt", ".clang-format", ".clang-tidy", "run"}
 #: Files of these kinds hold no comment. Archives, wheels and compiled files are not among them.
 OTHERS = {".md", ".png", ".svg", ".txt", ".csv", ".json", ".typed", ".po"}
