@@ -5,6 +5,8 @@ White noise, as areas alone would give, has chi-square 1 per degree of freedom a
 stays far below both at long range, and above the disc's radius at short range.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -37,15 +39,7 @@ MESHES = {
 
 @pytest.fixture(scope="module")
 def sampled(medial):
-    cache = {}
-
-    def sample(name, count=6000, **options):
-        key = (name, count, *sorted(options.items()))
-        if key not in cache:
-            cache[key] = medial.sample_surface(*MESHES[name], count=count, **options)
-        return cache[key]
-
-    return sample
+    return cache(lambda name, count=6000: medial.sample_surface(*MESHES[name], count=count))
 
 
 def spacing(samples):
