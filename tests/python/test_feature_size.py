@@ -11,9 +11,8 @@ from support.shapes import SHAPES
 
 pytestmark = pytest.mark.oracle
 
-THINNING = (
-    1 / 32
-)  # of vertices closer together than that, in radii of their balls, some are left out
+# Some vertices are left out that are closer together than that, in radii of their balls.
+THINNING = 1 / 32
 CLOUD = np.random.default_rng(0).random((60, 3))
 
 
