@@ -13,28 +13,19 @@ from medial_axis.core.errors import ExportError
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import export_axis
 from medial_axis.core.settings import Form, SamplingMode, Settings
-from support import meshes, plates
+from support import measure, meshes, plates
 
-
-def ellipsoid():
-    points, triangles = meshes.icosphere(4)
-    return points * (3.0, 2.0, 1.0), triangles
-
-
-def flat_torus():
-    points, triangles = meshes.torus(2.0, 0.7, 96, 48)
-    return points * (1.0, 1.0, 0.5), triangles
-
-
+FLAT_TORUS = meshes.moved(meshes.torus(2.0, 0.7, 96, 48), scale=(1.0, 1.0, 0.5))
+ELLIPSOID = meshes.moved(meshes.icosphere(4), scale=(3.0, 2.0, 1.0))
 # sheets, seams, rims, creases, junctions, corners
 SHAPES = {
-    "box": (plates.box, (13, 12, 0, 12, 4, 8)),
-    "wedge": (plates.wedge, (9, 7, 0, 9, 2, 6)),
-    "holed plate": (plates.holed_plate, (15, 13, 0, 14, 4, 8)),
-    "bracket": (plates.bracket, (16, 15, 0, 15, 5, 10)),
-    "T": (plates.t_plate, (21, 22, 0, 18, 8, 12)),
-    "torus": (flat_torus, (1, 0, 2, 0, 0, 0)),
-    "ellipsoid": (ellipsoid, (1, 0, 1, 0, 0, 0)),
+    "box": (plates.box(), (13, 12, 0, 12, 4, 8)),
+    "wedge": (plates.wedge(), (9, 7, 0, 9, 2, 6)),
+    "holed plate": (plates.holed_plate(), (15, 13, 0, 14, 4, 8)),
+    "bracket": (plates.bracket(), (16, 15, 0, 15, 5, 10)),
+    "T": (plates.t_plate(), (21, 22, 0, 18, 8, 12)),
+    "torus": (FLAT_TORUS, (1, 0, 2, 0, 0, 0)),
+    "ellipsoid": (ELLIPSOID, (1, 0, 1, 0, 0, 0)),
 }
 
 
@@ -53,8 +44,8 @@ def boxed():
 @pytest.mark.parametrize("count", [4000, 10000])
 @pytest.mark.parametrize("name", SHAPES)
 def test_counts_are_those_of_the_shape(name, count, seed):
-    make, expected = SHAPES[name]
-    assert tuple(counts_of(axis_of(make(), count, seed).structure).values()) == expected
+    mesh, expected = SHAPES[name]
+    assert tuple(counts_of(axis_of(mesh, count, seed).structure).values()) == expected
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -65,12 +56,9 @@ def test_a_box_has_no_junction_too_many(seed):
 
 @pytest.mark.parametrize(("name", "room"), [("box", 1e-9), ("holed plate", 2e-2)])
 def test_numbers_do_not_depend_on_the_samples(name, room):
-    """The same number is the same sheet: its patches, its neighbours, its seams and its area, on flat faces exactly.
-
-    The chords of curved sheets miss a little.
-    """
+    """The same number is the same sheet; its area is exact on flat faces, and chords of curved sheets miss a little."""
     first, *others = (
-        rows_of(axis_of(SHAPES[name][0](), count, seed).structure)
+        rows_of(axis_of(SHAPES[name][0], count, seed).structure)
         for count, seed in ((4000, 0), (10000, 1), (7000, 2))
     )
     same = ("part", "patch_a", "patch_b", "neighbours", "seams", "rims", "creases")
@@ -85,18 +73,15 @@ def test_sheets_cover_the_axis_and_agree_with_their_patches(boxed):
     assert set(structure.part.tolist()) == set(range(13))
     low, high = structure.part_patches.T
     assert (low < high).all() and len(set(zip(low.tolist(), high.tolist(), strict=True))) == 13
-    order = np.lexsort((high, low))
-    assert np.array_equal(order, np.arange(13))
+    assert np.array_equal(np.lexsort((high, low)), np.arange(13))
 
 
 def test_edges_are_seams_where_their_facets_differ(boxed):
-    structure, sizes = boxed.structure, np.diff(boxed.face_offsets)
-    parts = {}
-    corners = np.split(boxed.face_vertices, boxed.face_offsets[1:-1])
-    for part, ring in zip(structure.part.tolist(), corners, strict=True):
+    structure, parts = boxed.structure, {}
+    for part, ring in zip(structure.part.tolist(), measure.polygons(boxed), strict=True):
         for a, b in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True):
             parts.setdefault((min(a, b), max(a, b)), []).append(part)
-    assert sum(map(len, parts.values())) == sizes.sum()
+    assert sum(map(len, parts.values())) == len(boxed.face_vertices)
     assert [tuple(edge) for edge in structure.facet_edges.tolist()] == sorted(parts)
     for edge, seam in zip(sorted(parts), structure.seam.tolist(), strict=True):
         found = parts[edge]
@@ -111,8 +96,7 @@ def test_edges_are_seams_where_their_facets_differ(boxed):
 def test_turned_facets_agree_along_their_sheets(boxed):
     axis = with_facets_turned(boxed, boxed.structure.turned)
     used = {}
-    rings = np.split(axis.face_vertices, axis.face_offsets[1:-1])
-    for part, ring in zip(axis.structure.part.tolist(), rings, strict=True):
+    for part, ring in zip(axis.structure.part.tolist(), measure.polygons(axis), strict=True):
         for edge in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True):
             used.setdefault((part, edge), []).append(ring)
     assert all(len(found) == 1 for found in used.values())
@@ -166,20 +150,18 @@ def test_marked_edges_divide_and_a_larger_angle_unites(medial):
 
 
 def test_only_clean_forms_have_a_structure():
-    assert axis_of(plates.box(), form=Form.PUBLISHED).structure is None
-    assert axis_of(plates.box(), form=Form.CURVE).structure is None
+    for form in (Form.PUBLISHED, Form.CURVE):
+        assert axis_of(plates.box(), form=form).structure is None
 
 
 def test_vertices_as_samples_have_patches():
-    points, triangles = meshes.icosphere(4)
-    found = compute(points * (3, 2, 1), triangles, Settings(sampling=SamplingMode.VERTICES))
+    found = compute(*ELLIPSOID, Settings(sampling=SamplingMode.VERTICES))
     assert found.axis.structure.parts == 1
     assert found.chosen.samples.patches.max() == 0
 
 
 def test_a_cloud_is_one_smooth_body():
-    points = meshes.icosphere(4)[0] * (3, 2, 1)
-    found = compute(points, np.empty((0, 3), np.int32), Settings())
+    found = compute(ELLIPSOID[0], np.empty((0, 3), np.int32), Settings())
     assert tuple(counts_of(found.axis.structure).values()) == (1, 0, 1, 0, 0, 0)
 
 
@@ -203,9 +185,8 @@ def test_csv_has_a_row_for_each_part(boxed, tmp_path):
 
 
 def test_an_axis_without_parts_has_no_table(tmp_path):
-    axis = axis_of(plates.box(), form=Form.PUBLISHED)
     with pytest.raises(ExportError, match="found one without"):
-        export_axis(axis, tmp_path / "parts.csv")
+        export_axis(axis_of(plates.box(), form=Form.PUBLISHED), tmp_path / "parts.csv")
     assert not list(tmp_path.iterdir())
 
 
@@ -213,8 +194,7 @@ def test_ply_has_parts_and_kinds(boxed, tmp_path):
     content = export_axis(boxed, tmp_path / "a.ply").read_bytes()
     header, body = content.split(b"end_header\n", 1)
     assert b"property int part\n" in header and b"property int kind\n" in header
-    numbers = [("kind", "<i4"), ("place", "<i4")]
-    vertex = np.dtype([("at", "<f8", 3), ("radius", "<f8"), *numbers])
+    vertex = [("at", "<f8", 3), ("radius", "<f8"), ("kind", "<i4"), ("place", "<i4")]
     rows = np.frombuffer(body, vertex, len(boxed.vertices))
     assert np.array_equal(rows["kind"], boxed.structure.kind)
 

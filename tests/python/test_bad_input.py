@@ -5,23 +5,18 @@ import itertools
 import re
 import threading
 import time
+from functools import partial
 
 import numpy as np
 import pytest
-from support import inputs, meshes, shapes
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.errors import InvalidInputError, MedialAxisError
+from medial_axis.core.settings import SamplingMode, Settings
+from support import inputs, measure, meshes, shapes
 
 CLOUD = np.random.default_rng(0).random((50, 3))
 BALL = meshes.icosphere(1)
 STAGES = ("MedialAnalysis", "delaunay", "poles", "umbrellas", "TightCocone", "cocone")
-
-
-def one_sentence(error):
-    """Expected ..., found ...; what to do."""
-    text = str(error.value)
-    assert re.match(r"^Expected .+", text), text
-    assert "found" in text and "\n" not in text and "nan" not in text.split("found")[0], text
-    assert 20 < len(text) < 300, text
-    return text
 
 
 def with_value(row, value):
@@ -30,36 +25,36 @@ def with_value(row, value):
     return points
 
 
+def assert_refused(error, call):
+    """The call raises this error, and what it says is returned: Expected ..., found ...; what to do."""
+    with pytest.raises(error) as caught:
+        call()
+    text = str(caught.value)
+    assert re.match(r"^Expected .+", text), text
+    assert "found" in text and "\n" not in text and "nan" not in text.split("found")[0], text
+    assert 20 < len(text) < 300, text
+    return text
+
+
 @pytest.mark.parametrize("stage", STAGES)
 @pytest.mark.parametrize(
     "points",
     [
-        CLOUD[:, :2],
-        CLOUD.ravel(),
-        CLOUD[None],
-        np.zeros((5, 4)),
-        np.zeros((3, 0)),
-        CLOUD.astype(int),
-        CLOUD > 0.5,
-        CLOUD.astype(complex),
-        CLOUD.astype(str),
-        CLOUD.astype(object),
-        np.float64(1.0),
+        CLOUD[:, :2], CLOUD.ravel(), CLOUD[None], np.zeros((5, 4)), np.zeros((3, 0)),
+        CLOUD.astype(int), CLOUD > 0.5, CLOUD.astype(complex), CLOUD.astype(str),
+        CLOUD.astype(object), np.float64(1.0),
     ],
-)
+)  # fmt: skip
 def test_points_of_a_wrong_shape_or_type(study, stage, points):
-    with pytest.raises(study.InvalidInputError) as error:
-        getattr(study, stage)(points)
-    one_sentence(error)
+    assert_refused(study.InvalidInputError, lambda: getattr(study, stage)(points))
 
 
 @pytest.mark.parametrize("stage", STAGES)
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("row", [0, 17, 49])
 def test_values_that_are_not_finite_name_their_row(study, stage, value, row):
-    with pytest.raises(study.InvalidInputError) as error:
-        getattr(study, stage)(with_value(row, value))
-    assert re.search(rf"\b{row}\b", one_sentence(error))
+    call = lambda: getattr(study, stage)(with_value(row, value))
+    assert re.search(rf"\b{row}\b", assert_refused(study.InvalidInputError, call))
 
 
 def test_the_first_row_that_is_not_finite_is_named(medial):
@@ -90,9 +85,7 @@ def test_the_first_row_that_is_not_finite_is_named(medial):
     ],
 )
 def test_points_without_volume(study, stage, points):
-    with pytest.raises(study.DegenerateInputError) as error:
-        getattr(study, stage)(points)
-    one_sentence(error)
+    assert_refused(study.DegenerateInputError, lambda: getattr(study, stage)(points))
 
 
 @pytest.mark.parametrize(
@@ -107,9 +100,7 @@ def test_points_without_volume(study, stage, points):
     ids=["float", "two columns", "flat", "quads", "bool"],
 )
 def test_triangles_of_a_wrong_shape_or_type(medial, triangles):
-    with pytest.raises(medial.InvalidInputError) as error:
-        medial.MedialAnalysis(BALL[0], triangles)
-    one_sentence(error)
+    assert_refused(medial.InvalidInputError, lambda: medial.MedialAnalysis(BALL[0], triangles))
 
 
 @pytest.mark.parametrize("index", [-1, 42, 2**31 - 1, -(2**31)])
@@ -122,31 +113,29 @@ def test_triangles_that_name_no_point(medial, index, row):
         lambda: medial.MedialAnalysis(BALL[0], triangles),
         lambda: medial.winding_number(CLOUD, BALL[0], triangles),
     ):
-        with pytest.raises(medial.InvalidInputError) as error:
-            call()
-        assert re.search(rf"\b{row}\b|{index}", one_sentence(error))
+        text = assert_refused(medial.InvalidInputError, call)
+        assert re.search(rf"\b{row}\b|{index}", text)
 
 
 def test_triangles_with_repeated_corners_are_harmless(medial):
     triangles = np.concatenate((BALL[1], [[0, 0, 1], [5, 5, 5]])).astype(np.int32)
-    analysis = medial.MedialAnalysis(meshes.jitter(BALL, 1e-3)[0], triangles)
-    plain = medial.MedialAnalysis(meshes.jitter(BALL, 1e-3)[0], BALL[1])
-    assert np.array_equal(analysis.side, plain.side)
+    points = meshes.jitter(BALL, 1e-3)[0]
+    sides = (medial.MedialAnalysis(points, faces).side for faces in (triangles, BALL[1]))
+    assert np.array_equal(*sides)
 
 
-OUT_OF_RANGE = {
-    "theta": [-1e-9, -1.0, np.pi / 2 + 1e-6, 22.5, np.nan, np.inf],
-    "rho": [-1e-9, -8.0, np.nan],
-}
-
-
-@pytest.mark.parametrize("name", OUT_OF_RANGE)
-def test_thresholds_out_of_range(medial, name):
+@pytest.mark.parametrize(
+    "name, values",
+    [
+        ("theta", [-1e-9, -1.0, np.pi / 2 + 1e-6, 22.5, np.nan, np.inf]),
+        ("rho", [-1e-9, -8.0, np.nan]),
+    ],
+)
+def test_thresholds_out_of_range(medial, name, values):
     analysis = medial.MedialAnalysis(CLOUD)
-    for call, value in itertools.product((analysis.select, analysis.extract), OUT_OF_RANGE[name]):
-        with pytest.raises(medial.InvalidInputError) as error:
-            call(**{name: value})
-        assert name in one_sentence(error)
+    for call, value in itertools.product((analysis.select, analysis.extract), values):
+        refused = assert_refused(medial.InvalidInputError, partial(call, **{name: value}))
+        assert name in refused
 
 
 def test_limits_of_the_thresholds_are_valid(medial):
@@ -178,9 +167,8 @@ def test_arguments_of_a_wrong_type(medial, argument):
 
 
 def test_errors_are_value_errors(medial):
-    assert issubclass(medial.InvalidInputError, ValueError) and issubclass(
-        medial.DegenerateInputError, ValueError
-    )
+    assert issubclass(medial.InvalidInputError, ValueError)
+    assert issubclass(medial.DegenerateInputError, ValueError)
     assert issubclass(medial.Cancelled, Exception) and not issubclass(medial.Cancelled, ValueError)
 
 
@@ -188,9 +176,7 @@ def test_errors_are_value_errors(medial):
     "queries", [CLOUD[:, :2], CLOUD.astype(int), with_value(3, np.nan)], ids=["2d", "int", "nan"]
 )
 def test_winding_number_checks_its_queries(medial, queries):
-    with pytest.raises(medial.InvalidInputError) as error:
-        medial.winding_number(queries, *BALL)
-    one_sentence(error)
+    assert_refused(medial.InvalidInputError, lambda: medial.winding_number(queries, *BALL))
 
 
 # ---- cancelling
@@ -205,17 +191,15 @@ def test_cancel_from_another_thread(medial, when):
     def compute():
         try:
             medial.MedialAnalysis(points, progress=progress)
-            raised.append(None)
         except medial.Cancelled as error:
             raised.append(error)
 
-    worker = threading.Thread(target=compute)
-    worker.start()
+    (worker := threading.Thread(target=compute)).start()
     while worker.is_alive() and progress.fraction < when:
         time.sleep(0.001)
     progress.cancel()
     worker.join(60)
-    assert isinstance(raised[0], medial.Cancelled) and 0 <= progress.fraction < 1
+    assert len(raised) == 1 and 0 <= progress.fraction < 1
     assert len(medial.MedialAnalysis(CLOUD).edges) > 0
 
 
@@ -225,8 +209,7 @@ def test_progress_rises_to_one_and_names_its_stages(medial):
     progress, seen = medial.Progress(), []
     assert progress.fraction == 0.0 and not progress.cancelled and isinstance(progress.stage, str)
     work = lambda: medial.MedialAnalysis(points, progress=progress).extract(progress=progress)
-    worker = threading.Thread(target=work)
-    worker.start()
+    (worker := threading.Thread(target=work)).start()
     while worker.is_alive():
         seen.append((progress.fraction, progress.stage))
         time.sleep(0.002)
@@ -261,45 +244,26 @@ def test_a_rotated_box_keeps_its_inner_axis(medial, dtype, seed):
     turned = medial.MedialAnalysis((vertices @ turn.T).astype(dtype), triangles).extract(
         side=medial.Side.INNER
     )
-    areas = [total_area(mesh) for mesh in (straight, turned)]
-    assert areas[1] == pytest.approx(areas[0], rel=0.02)
-    back = turned.vertices @ turn
-    assert shapes.Box().axis_distance(back).max() < 0.06
+    assert total_area(turned) == pytest.approx(total_area(straight), rel=0.02)
+    assert shapes.Box().axis_distance(turned.vertices @ turn).max() < 0.06
     assert np.isfinite(turned.vertices).all()
 
 
 def total_area(mesh):
-    area = 0.0
-    for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:]):
-        ring = mesh.vertices[mesh.face_vertices[a:b]]
-        area += 0.5 * np.linalg.norm(
-            np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0)
-        )
-    return area
+    fans = measure.fan_triangles(mesh.vertices, mesh.face_offsets, mesh.face_vertices)
+    across = np.cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0])
+    return 0.5 * np.linalg.norm(across, axis=1).sum()
 
 
 def test_a_rotated_box_of_random_samples_in_float64(medial):
     """Faces of many coplanar samples without a grid: flat cells with circumradii up to 1e16."""
-    box = shapes.Box()
-    points = box.sample(1500, 0) @ inputs.rotation(2).T
-    mesh = medial.MedialAnalysis(points).extract()
-    inside = box.inside(mesh.vertices @ inputs.rotation(2))
-    facet = np.array(
-        [
-            inside[mesh.face_vertices[a:b]].all()
-            for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:])
-        ]
-    )
-    plain = medial.MedialAnalysis(box.sample(1500, 0)).extract()
-    inner = box.inside(plain.vertices)
-    wanted = {
-        tuple(g)
-        for g, a, b in zip(
-            plain.generators.tolist(), plain.face_offsets[:-1], plain.face_offsets[1:]
-        )
-        if inner[plain.face_vertices[a:b]].all()
-    }
-    found = {tuple(g) for g in mesh.generators[facet].tolist()}
+    points, inner = shapes.Box().sample(1500, 0), []
+    for frame in (np.eye(3), inputs.rotation(2)):
+        mesh = medial.MedialAnalysis(points @ frame.T).extract()
+        inside = shapes.Box().inside(mesh.vertices @ frame)
+        facets = [inside[corners].all() for corners in measure.polygons(mesh)]
+        inner.append({tuple(g) for g in mesh.generators[facets].tolist()})
+    wanted, found = inner
     assert len(wanted ^ found) <= 0.005 * len(wanted)
 
 
@@ -323,11 +287,8 @@ def test_exactly_cospherical_samples(medial, points):
 def test_a_plain_cube_of_eight_vertices(medial):
     vertices, triangles = meshes.box((1, 1, 1))
     mesh = medial.MedialAnalysis(vertices, triangles).extract(0.0, 0.0)
-    assert (
-        len(mesh.generators) == 0
-        and len(mesh.vertices) == 0
-        and np.array_equal(mesh.face_offsets, [0])
-    )
+    assert len(mesh.generators) == len(mesh.vertices) == 0
+    assert np.array_equal(mesh.face_offsets, [0])
 
 
 # --- settings of the Python interface
@@ -336,9 +297,6 @@ def test_a_plain_cube_of_eight_vertices(medial):
 @pytest.mark.parametrize("name", ["side", "sides", "rule", "criteria", "sampling", "form"])
 @pytest.mark.parametrize("value", [0, 1.5, float("nan"), "INNER", None])
 def test_choices_are_of_their_kind(name, value):
-    from medial_axis.core.errors import InvalidInputError
-    from medial_axis.core.settings import Settings
-
     with pytest.raises(InvalidInputError) as error:
         Settings(**{name: value})
     assert name in str(error.value) and str(error.value).startswith("Expected ")
@@ -348,9 +306,6 @@ def test_choices_are_of_their_kind(name, value):
     "name, value", [("seed", 0.5), ("samples", 500.0), ("theta", "0.3"), ("spacing", None)]
 )
 def test_numbers_are_of_their_kind(name, value):
-    from medial_axis.core.errors import InvalidInputError
-    from medial_axis.core.settings import Settings
-
     with pytest.raises(InvalidInputError, match=f"Expected {name} to be of the kind"):
         Settings(**{name: value})
     for number in (np.float32(0.5), np.float64(0.5), 1):
@@ -360,10 +315,6 @@ def test_numbers_are_of_their_kind(name, value):
 
 @pytest.mark.parametrize("spacing", [5e-324, 1e-200, 1e-100])
 def test_a_spacing_next_to_nothing_is_refused_in_a_sentence(spacing):
-    from medial_axis.core.axis.compute import compute
-    from medial_axis.core.errors import MedialAxisError
-    from medial_axis.core.settings import SamplingMode, Settings
-
     with pytest.raises(MedialAxisError) as error:
         compute(*BALL, Settings(spacing=spacing, sampling=SamplingMode.SURFACE))
     assert str(error.value).startswith("Expected ") and "\n" not in str(error.value)

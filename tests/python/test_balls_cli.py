@@ -5,18 +5,20 @@ import json
 import os
 import subprocess
 import sys
+from functools import partial
 from typing import NamedTuple
 
 import medial_axis
-import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.machine.cache import CACHE
 from support.meshes import torus, write_off
 from support.thick_meshes import block
+from test_cli import files, run_words
 
 PLATE = block(4.0, 3.0, 0.4)
 FEW = ("--sampling", "surface", "--samples", "500")
+VOXELS = ("--wall", "0.15", "--voxel-size", "0.12")
 
 
 class Command(NamedTuple):
@@ -38,13 +40,7 @@ COMMANDS = {
         ("thicken",), (*FEW, "--limit", "0.8"), "ply", ("--limit", "0.9"), "farthest_move", THIN
     ),
     "midsurface": Command(("midsurface",), FEW, "ply", ("--size", "1"), "sheets"),
-    "hollow": Command(
-        ("hollow",),
-        ("--wall", "0.15", "--voxel-size", "0.12"),
-        "stl",
-        ("--wall", "0.14"),
-        "cavities",
-    ),
+    "hollow": Command(("hollow",), VOXELS, "stl", ("--wall", "0.14"), "cavities"),
     "solidify": Command(("solidify",), ("--thickness", "0.1"), "stl", ("--offset", "1"), "volume"),
 }
 
@@ -65,13 +61,7 @@ def here(tmp_path, monkeypatch):
 @pytest.fixture
 def run(command, capsys):
     """(words) -> exit code, reports, standard error."""
-
-    def words(*words):
-        code = cli.main([*command.words, *command.options, *words, "--json"])
-        said = capsys.readouterr()
-        return code, [json.loads(line) for line in said.out.splitlines()], said.err
-
-    return words
+    return partial(run_words, capsys, *command.words, *command.options)
 
 
 def times(folder):
@@ -96,8 +86,8 @@ def test_a_result_is_reported_kept_and_made_again(here, run, command):
 def test_one_bad_input_stops_no_other(here, run, command):
     (here / "bad.off").write_text("nonsense")
     write_off(here / "last.off", PLATE)
-    words = "plate.off", "bad.off", "last.off", "out/", "--format", command.suffix
-    code, reports, said = run(*words)
+    inputs = "plate.off", "bad.off", "last.off"
+    code, reports, said = run(*inputs, "out/", "--format", command.suffix)
     assert code == cli.INPUT and "bad.off" in said
     assert [report["status"] for report in reports] == ["done", "failed", "done"]
     names = sorted(path.name for path in (here / "out").glob(f"*.{command.suffix}"))
@@ -121,7 +111,7 @@ def test_memory_limit(here, run, command):
     words = "--samples", "20000", "--memory-limit", "1"
     code, _, said = run("plate.off", f"plate.{command.suffix}", *words)
     assert code == cli.FAILED and "the limit of 1 MB" in said
-    assert sorted(path.name for path in here.iterdir()) == ["plate.off"]
+    assert files(here) == ["plate.off"]
 
 
 def test_exit_codes(here, run, command):
@@ -130,7 +120,7 @@ def test_exit_codes(here, run, command):
     for wrong in (["plate.off", "plate.xyz"], ["plate.off", out, "--nonsense"], ["plate.off"]):
         assert run(*wrong)[0] == cli.USAGE
     assert run("plate.off", out, "--options", f"{command.other[0]} nan")[0] == cli.USAGE
-    assert sorted(path.name for path in here.iterdir()) == ["plate.off"]
+    assert files(here) == ["plate.off"]
 
 
 def test_closed_standard_output(here, command):
@@ -150,9 +140,9 @@ def test_the_file_is_the_library_s(tmp_path):
     source = write_off(tmp_path / "torus.off", mesh)
     words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
     assert cli.main(["balls", source, str(tmp_path / "a.json"), *words]) == cli.DONE
-    found = medial_axis.cover_by_balls(*mesh, count=6, mode="around", sampling="vertices")
+    cover = partial(medial_axis.cover_by_balls, count=6, mode="around", sampling="vertices")
+    found = cover(*mesh)
     ours = medial_axis.write_balls(found, tmp_path / "b.json")
     assert (tmp_path / "a.json").read_bytes() == ours.read_bytes()
-    large = (2 * np.asarray(mesh[0]), mesh[1])
-    twice = medial_axis.cover_by_balls(*large, count=6, mode="around", sampling="vertices")
+    twice = cover(2 * mesh[0], mesh[1])
     assert (twice.balls.radii == 2 * found.balls.radii).all()

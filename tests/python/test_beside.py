@@ -72,9 +72,8 @@ def test_the_topology_of_the_faces_is_counted_once_for_all_passes(medial, monkey
     monkeypatch.setattr(native, "_module", Counting())
     CACHE.clear()
     points, triangles = meshes.torus(around=24, across=8)
-    found = compute(
-        points, triangles, Settings(sampling=SamplingMode.ADAPTIVE, samples=800, budget=3000)
-    )
+    settings = Settings(sampling=SamplingMode.ADAPTIVE, samples=800, budget=3000)
+    found = compute(points, triangles, settings)
     assert "passes" in found.chosen.reason
     assert calls == [len(triangles)]
     assert found.chosen.samples.by_faces == (1, 1, 0)

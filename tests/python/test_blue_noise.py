@@ -5,6 +5,8 @@ White noise, as areas alone would give, has chi-square 1 per degree of freedom a
 stays far below both at long range, and above the disc's radius at short range.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -37,20 +39,7 @@ MESHES = {
 
 @pytest.fixture(scope="module")
 def sampled(medial):
-    cache = {}
-
-    def sample(name, count=6000, **options):
-        key = (name, count, *sorted(options.items()))
-        if key not in cache:
-            cache[key] = medial.sample_surface(*MESHES[name], count=count, **options)
-        return cache[key]
-
-    return sample
-
-
-def areas(mesh):
-    a, b, c = (mesh[0][mesh[1][:, i]] for i in range(3))
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return cache(lambda name, count=6000: medial.sample_surface(*MESHES[name], count=count))
 
 
 def spacing(samples):
@@ -89,21 +78,15 @@ def test_counts_do_not_see_the_triangles(sampled, name, count):
     creases = samples.points[samples.kind < VERTEX]
     rows = samples.kind == SURFACE
     if len(creases):
-        keep = clear_triangles(MESHES[name], creases, 2 * spacing(samples))
-        rows &= keep[samples.triangle]
+        vertices, triangles = MESHES[name]
+        away = cKDTree(creases).query(vertices)[0] > 2 * spacing(samples)
+        rows &= away[triangles].all(axis=1)[samples.triangle]
     least = samples.barycentric[rows].min(axis=1)
     bins = 1 - (1 - 3 * least) ** 2  # uniform on [0, 1] for uniform samples
     found, _ = np.histogram(bins, 5, (0, 1))
     assert rows.sum() > 300
-    assert (
-        (found - rows.sum() / 5) ** 2 / (rows.sum() / 5)
-    ).sum() < 18.5  # p = 0.001 of white noise
-
-
-def clear_triangles(mesh, creases, reach):
-    """(m,) triangles all of which is farther from creases than `reach`."""
-    gap, _ = cKDTree(creases).query(mesh[0])
-    return (gap[mesh[1]] > reach).all(axis=1)
+    wanted = rows.sum() / 5
+    assert ((found - wanted) ** 2 / wanted).sum() < 18.5  # p = 0.001 of white noise
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -207,10 +190,6 @@ def assert_creases_are_covered(samples, mesh, doubtful=0):
 )
 def test_creases_of_real_meshes_are_covered(medial, data_file, file):
     mesh = meshes.read(data_file(file))
-    doubtful = (
-        10 if "nonmanifold" in file else 0
-    )  # edges of four triangles, faces that cancel each other
+    # It has edges of four triangles, and faces that cancel each other.
+    doubtful = 10 if "nonmanifold" in file else 0
     assert_creases_are_covered(medial.sample_surface(*mesh, count=10_000), mesh, doubtful)
-
-
-# --- the same again

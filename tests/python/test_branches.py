@@ -36,10 +36,8 @@ def measured(points, triangles):
 
 def polygon(radius, sides):
     """The area and the perimeter of a regular polygon in a circle."""
-    return (
-        sides / 2 * radius**2 * np.sin(2 * np.pi / sides),
-        2 * sides * radius * np.sin(np.pi / sides),
-    )
+    area = sides / 2 * radius**2 * np.sin(2 * np.pi / sides)
+    return area, 2 * sides * radius * np.sin(np.pi / sides)
 
 
 # --- solids with known measures
@@ -150,12 +148,8 @@ def test_measures_have_units():
         branches_of(skeleton_of(size * points, np.full(60, 0.2 * size), chain, chain[0][:0]))
         for size in (1.0, 2.0)
     )
-    for name, power in (
-        ("length", 1),
-        ("curvature_largest", -1),
-        ("torsion_mean", -1),
-        ("tortuosity", 0),
-    ):
+    powers = {"length": 1, "curvature_largest": -1, "torsion_mean": -1, "tortuosity": 0}
+    for name, power in powers.items():
         assert getattr(large, name) == getattr(small, name) * 2.0**power
 
 
@@ -202,57 +196,45 @@ def test_a_cross_section_is_what_is_inside_on_its_plane(data_file, seed):
     assert area == pytest.approx(counted, rel=0.05)
 
 
-def box_with_two_lines():
-    points, triangles = meshes.box((2, 2, 2), (1.0, 1.0, 1.0))
-    other = np.array([[(0.5, 0.2, -2.0), (0.5, 0.2, 2.0)]])
-    return Faces(points, triangles), other
+BOX = Faces(*meshes.box((2, 2, 2), (1.0, 1.0, 1.0)))
+MIDDLE = (0.0, 0.1, 0.05)
+
+
+def section_of_box(place, lines=NO_LINES, triangles=BOX.triangles):
+    """The area and the perimeter of a level section of a box at a place."""
+    return section(np.array(place), np.array((0.0, 0, 1)), BOX.points, triangles, lines)
 
 
 def test_a_cross_section_of_two_branches_is_none():
-    faces, other = box_with_two_lines()
-    middle, up = np.array((0.0, 0.1, 0.05)), np.array((0.0, 0.0, 1.0))
-    sides = np.ptp(faces.points, axis=0)
-    expected = sides[0] * sides[1], 2 * (sides[0] + sides[1])
-    cut = lambda lines: section(middle, up, faces.points, faces.triangles, lines)
-    assert cut(NO_LINES) == pytest.approx(expected)
-    assert cut(other + np.array((5.0, 0, 0))) == pytest.approx(expected)
-    assert np.isnan(cut(other)).all()
+    other = np.array([[(0.5, 0.2, -2.0), (0.5, 0.2, 2.0)]])
+    x, y, _ = np.ptp(BOX.points, axis=0)
+    through_vertices = section_of_box((0.0, 0.0, 0.0))
+    far = section_of_box(MIDDLE, other + np.array((5.0, 0, 0)))
+    for found in (through_vertices, section_of_box(MIDDLE), far):
+        assert found == pytest.approx((x * y, 2 * (x + y)))
+    assert np.isnan(section_of_box(MIDDLE, other)).all()
 
 
 def test_an_opening_has_no_cross_section():
-    faces, _ = box_with_two_lines()
-    middle, up = np.array((0.0, 0.1, 0.05)), np.array((0.0, 0.0, 1.0))
-    wall = (faces.points[faces.triangles][..., 0] > 0.99 * faces.points[:, 0].max()).all(axis=1)
+    wall = (BOX.points[BOX.triangles][..., 0] > 0.99 * BOX.points[:, 0].max()).all(axis=1)
     assert 0 < wall.sum() < len(wall)
-    assert np.isnan(section(middle, up, faces.points, faces.triangles[~wall], NO_LINES)).all()
-    outside = np.array((9.0, 0, 0))
-    assert np.isnan(section(outside, up, faces.points, faces.triangles, NO_LINES)).all()
-
-
-def test_a_plane_through_vertices_cuts_once():
-    faces, _ = box_with_two_lines()
-    sides = np.ptp(faces.points, axis=0)
-    found = section(np.zeros(3), np.array((0.0, 0, 1)), faces.points, faces.triangles, NO_LINES)
-    assert found == pytest.approx((sides[0] * sides[1], 2 * (sides[0] + sides[1])))
+    assert np.isnan(section_of_box(MIDDLE, triangles=BOX.triangles[~wall])).all()
+    assert np.isnan(section_of_box((9.0, 0, 0))).all()
 
 
 def test_branches_on_loops_are_those_whose_ends_meet_without_them():
     rng = np.random.default_rng(0)
     for _ in range(40):
         nodes = int(rng.integers(1, 9))
-        ends = {
-            name: tuple(pair)
-            for name, pair in enumerate(rng.integers(0, nodes, (rng.integers(0, 10), 2)).tolist())
-        }
+        pairs = rng.integers(0, nodes, (rng.integers(0, 10), 2)).tolist()
+        ends = dict(enumerate(map(tuple, pairs)))
         at = {node: [] for node in range(nodes)}
         for name, pair in ends.items():
             for node in pair:
                 at[node].append(name)
         expected = []
         for name, (a, b) in ends.items():
-            rest = np.array([pair for other, pair in ends.items() if other != name], int).reshape(
-                -1, 2
-            )
+            rest = np.delete(np.array(pairs), name, axis=0)
             graph = coo_array((np.ones(len(rest)), rest.T), shape=(nodes, nodes))
             part = connected_components(graph, directed=False)[1]
             if part[a] == part[b]:
@@ -279,10 +261,12 @@ def a_ring_with_a_tail():
 
 
 def test_csv_has_a_row_for_each_branch(a_ring_with_a_tail, tmp_path):
-    path = export_skeleton(*a_ring_with_a_tail[:2], tmp_path / "a.csv", a_ring_with_a_tail[2])
-    rows = list(csv.DictReader(path.open()))
+    skeleton, parts, branches = a_ring_with_a_tail
+    rows = list(
+        csv.DictReader(export_skeleton(skeleton, parts, tmp_path / "a.csv", branches).open())
+    )
     assert [row["branch"] for row in rows] == ["0", "1"]
-    for name, column in a_ring_with_a_tail[2].columns.items():
+    for name, column in branches.columns.items():
         for row, value in zip(rows, column.tolist(), strict=True):
             assert (row[name] == "") if np.isnan(value) else float(row[name]) == value
     ring, tail = rows
@@ -344,11 +328,8 @@ def test_vtk_reads_vtp(a_ring_with_a_tail, tmp_path):
     reader.SetFileName(str(export_skeleton(skeleton, parts, tmp_path / "a.vtp", branches)))
     reader.Update()
     found = reader.GetOutput()
-    assert (found.GetNumberOfPoints(), found.GetNumberOfLines(), found.GetNumberOfVerts()) == (
-        81,
-        2,
-        1,
-    )
+    assert (found.GetNumberOfPoints(), found.GetNumberOfLines()) == (81, 2)
+    assert found.GetNumberOfVerts() == 1
     area = found.GetPointData().GetArray("area")
     assert np.isnan(area.GetValue(0)) and area.GetValue(70) == pytest.approx(polygon(0.1, 32)[0])
     assert found.GetCellData().GetArray("tortuosity").GetValue(2) == branches.tortuosity[1]

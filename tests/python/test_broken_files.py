@@ -5,59 +5,43 @@ import warnings
 
 import numpy as np
 import pytest
+import test_import_meshes as cubes
 from medial_axis.core.errors import MedialAxisError, OutOfMemoryError, ReadError
 from medial_axis.core.files.read import READERS, import_points
 from medial_axis.core.files.read_shape import read_shape
-from test_import import BYTES, OUTWARD, THREE, off, rows
-from test_import import NORMALS as DIRECTIONS
-from test_import_meshes import (
-    MIXED,
-    NORMALS,
-    ORDERS,
-    POINTS,
-    npy,
-    npz,
-    obj,
-    off_binary,
-    ply,
-    stl_binary,
-    stl_text,
-)
+from test_import import BYTES, NORMALS, OUTWARD, THREE, off, rows
 
 from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
-OFF = "OFF\n8 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POINTS) + "4 0 1 3 2\n3 0 4 1\n"
+OFF = (
+    "OFF\n8 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in cubes.POINTS) + "4 0 1 3 2\n3 0 4 1\n"
+)
 GOOD = {
     "a.off": OFF,
     "n.off": OFF.replace("OFF", "NOFF").replace("\n1", "\n1"),
-    "a.obj": obj(),
-    "a.stl": stl_text(),
-    "b.stl": stl_binary(),
-    "a.npy": npy(POINTS),
-    "a.npz": npz(points=POINTS, normals=NORMALS),
-    "b.off": off_binary(),
-    **{f"{kind}.ply": ply(kind, MIXED, NORMALS, extra=True) for kind in ORDERS},
-    "a.xyz": "".join(f"{x} {y} {z}\n" for x, y, z in POINTS),
-    "a.xyzn": "".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in POINTS),
+    "a.obj": cubes.obj(),
+    "a.stl": cubes.stl_text(),
+    "b.stl": cubes.stl_binary(),
+    "a.npy": cubes.npy(cubes.POINTS),
+    "a.npz": cubes.npz(points=cubes.POINTS, normals=cubes.NORMALS),
+    "b.off": cubes.off_binary(),
+    **{
+        f"{kind}.ply": cubes.ply(kind, cubes.MIXED, cubes.NORMALS, extra=True)
+        for kind in cubes.ORDERS
+    },
+    "a.xyz": "".join(f"{x} {y} {z}\n" for x, y, z in cubes.POINTS),
+    "a.xyzn": "".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in cubes.POINTS),
     "b.xyz": "3\ntitle\n" + rows(THREE),
-    "c.xyz": rows(THREE, DIRECTIONS, mark=","),
-    "b.xyzn": rows(THREE, DIRECTIONS, mark="; "),
+    "c.xyz": rows(THREE, NORMALS, mark=","),
+    "b.xyzn": rows(THREE, NORMALS, mark="; "),
     "c.off": off(OUTWARD, BYTES, header="# f\nCNOFF\n8 6 12\n"),
 }
 GOOD = {name: x.encode() if isinstance(x, str) else x for name, x in GOOD.items()}
 WORDS = [
-    b"99999999999999999999",
-    b"-1",
-    b"1e999",
-    b"nan",
-    b"\0",
-    b"\xff\xfe",
-    b"",
-    b"0x1p9",
-    b"list",
-]
+    b"99999999999999999999", b"-1", b"1e999", b"nan", b"\0", b"\xff\xfe", b"", b"0x1p9", b"list",
+]  # fmt: skip
 
 
 def mutated(data, random):
@@ -123,15 +107,18 @@ def test_fuzzed_files(tmp_path, seed):
     assert 0 < refused < 200
 
 
-def test_stl_that_begins_like_text_and_is_binary(tmp_path):
-    (tmp_path / "a.stl").write_bytes(stl_binary(b"solid by hand") + b"\0\0")
+@pytest.mark.parametrize(
+    "content, warnings",
+    [
+        (cubes.stl_binary(b"solid by hand") + b"\0\0", ("Left out 2 bytes after the triangles",)),
+        (b"\n" + cubes.stl_text().encode(), ()),
+    ],
+    ids=["binary, begins like text", "behind a blank line"],
+)
+def test_stl_of_unusual_beginnings(tmp_path, content, warnings):
+    (tmp_path / "a.stl").write_bytes(content)
     found = import_points(tmp_path / "a.stl")
-    assert found.faces == 12 and found.warnings == ("Left out 2 bytes after the triangles",)
-
-
-def test_stl_behind_a_blank_line(tmp_path):
-    (tmp_path / "a.stl").write_text("\n" + stl_text())
-    assert import_points(tmp_path / "a.stl").faces == 12
+    assert found.faces == 12 and found.warnings == warnings
 
 
 def test_a_folder_is_called_by_its_name(tmp_path, monkeypatch):

@@ -13,16 +13,7 @@ import zipfile
 import pytest
 
 import build_addon
-from tools.packaging import (
-    check_module,
-    licences,
-    macho,
-    modules,
-    needs,
-    pack,
-    paths,
-    presets,
-)
+from tools.packaging import check_module, licences, macho, modules, needs, pack, paths, presets
 from tools.packaging.blender import Blender
 from tools.packaging.terminal import Failure
 
@@ -38,22 +29,25 @@ def environment(monkeypatch):
             monkeypatch.delenv(name)
 
 
+def write(folder, texts):
+    """Files of these names with these texts, and the folders for them."""
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+
+
 @pytest.fixture
 def sources(tmp_path, monkeypatch):
     """A tiny add-on in place of the real one."""
     addon = tmp_path / "blender_addon"
-    for name in (
-        "__init__.py",
-        "core/a.py",
-        "lib/_medial.cpython-311-x86_64-linux-gnu.so",
-        "blender_manifest.toml",
-    ):
-        (addon / name).parent.mkdir(parents=True, exist_ok=True)
-        (addon / name).write_text(f"content of {name}", encoding="utf-8")
-    (addon / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\n', encoding="utf-8")
-    manifest = 'schema_version = "1.0.0"\nversion = "1.2.3"\n\n[permissions]\n'
-    (addon / "blender_manifest.toml").write_text(manifest, encoding="utf-8")
-    (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
+    texts = {
+        "__init__.py": 'bl_info = {"version": (1, 2, 3)}\n',
+        "core/a.py": "a = 1",
+        "lib/_medial.cpython-311-x86_64-linux-gnu.so": "compiled",
+        "blender_manifest.toml": 'schema_version = "1.0.0"\nversion = "1.2.3"\n\n[permissions]\n',
+        "../LICENSE": "licence",
+    }
+    write(addon, texts)
     monkeypatch.setattr(
         pack, "make_manual", lambda folder: (folder.mkdir(), (folder / "a.html").write_text("A"))
     )
@@ -77,45 +71,44 @@ def test_the_driver_runs_on_python_3_8():
         ast.parse(file.read_text(encoding="utf-8"), str(file), feature_version=(3, 8))
 
 
-def test_missing_packages_without_rights_name_the_command_and_exit_2(monkeypatch, capsys):
+@pytest.fixture
+def advice(monkeypatch, capsys):
+    """(command, which packages are missing) -> what a user without rights is told."""
+
+    def told(command, is_missing):
+        monkeypatch.setattr(needs, "is_installed", lambda package: not is_missing(package))
+        monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
+        assert build_addon.main([command]) == 2
+        return capsys.readouterr().err
+
+    return told
+
+
+def test_missing_packages_without_rights_name_the_command_and_exit_2(monkeypatch, advice):
     monkeypatch.setattr(needs.shutil, "which", lambda name: f"/usr/bin/{name}")
-    monkeypatch.setattr(
-        needs, "is_installed", lambda package: package not in ("cmake", "libcgal-dev")
-    )
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
-    assert build_addon.main(["build"]) == 2
-    advice = (
-        "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libcgal-dev"
-    )
-    assert advice in capsys.readouterr().err
+    command = "sudo apt-get update && sudo apt-get install -y --no-install-recommends"
+    assert f"{command} cmake libcgal-dev" in advice("build", ("cmake", "libcgal-dev").__contains__)
 
 
-@pytest.mark.parametrize("command", [["build"], ["test"]])
-def test_readme_names_what_the_commands_install(command):
+@pytest.mark.parametrize("wanted", [needs.DEMO, needs.TEST], ids=["build", "test"])
+def test_readme_names_what_the_commands_install(wanted):
     """The two sentences of the README that promise what is installed."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    wanted = needs.DEMO if command == ["build"] else needs.TEST
-    named = set(re.findall(r"[\w+.-]+", readme))
-    assert not set(wanted.values()) - named
+    assert not set(wanted.values()) - set(re.findall(r"[\w+.-]+", readme))
 
 
-def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(monkeypatch, capsys):
-    monkeypatch.setattr(needs, "is_installed", lambda package: package not in ("cmake", "blender"))
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
+def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(monkeypatch, advice):
     monkeypatch.setattr(build_addon.modules, "build_core", lambda: pytest.fail("compiled"))
-    assert build_addon.main(["demo"]) == 2
-    assert "--no-install-recommends cmake blender" in capsys.readouterr().err
+    told = advice("demo", ("cmake", "blender").__contains__)
+    assert "--no-install-recommends cmake blender" in told
 
 
-def test_packing_where_nothing_was_compiled_asks_for_what_it_needs(monkeypatch, capsys):
+def test_packing_where_nothing_was_compiled_asks_for_what_it_needs(monkeypatch, advice):
     """In a bare container the modules come from other machines, licences and Blender from packages."""
-    monkeypatch.setattr(needs, "is_installed", lambda package: False)
-    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
     monkeypatch.setattr(build_addon, "find_blender", lambda name: pytest.fail("too early"))
-    assert build_addon.main(["pack"]) == 2
-    advice = capsys.readouterr().err
-    assert "libcgal-dev libboost-dev pybind11-dev python3-markdown python3-numpy blender" in advice
-    assert "cmake" not in advice
+    told = advice("pack", lambda package: True)
+    assert "libcgal-dev libboost-dev pybind11-dev python3-markdown python3-numpy blender" in told
+    assert "cmake" not in told
 
 
 SYSTEMS = {
@@ -151,15 +144,9 @@ def test_missing_blender_exits_2(monkeypatch):
 
 
 def test_zip_holds_what_is_needed_and_nothing_else(sources):
-    for extra in (
-        "core/__pycache__/a.cpython-311.pyc",
-        ".hidden/b.py",
-        "core/.c.py",
-        "core/notes.txt",
-        "lib/_medial.new",
-    ):
-        (sources / extra).parent.mkdir(parents=True, exist_ok=True)
-        (sources / extra).write_text("not wanted", encoding="utf-8")
+    caches = "core/__pycache__/a.cpython-311.pyc", "lib/_medial.new"
+    extra = *caches, ".hidden/b.py", "core/.c.py", "core/notes.txt"
+    write(sources, dict.fromkeys(extra, "not wanted"))
     target = pack.pack()
     assert target.name == "medial_axis-1.2.3.zip"
     assert sorted(zipfile.ZipFile(target).namelist()) == [
@@ -192,7 +179,7 @@ def commit_sources(folder):
     subprocess.run(["git", "init", "-q", folder], check=True)
     subprocess.run([*git, "add", "blender_addon"], check=True)
     subprocess.run([*git, "commit", "-qm", "all"], check=True)
-    return [*git]
+    return git
 
 
 def test_development_builds_carry_their_commit_and_releases_do_not(sources, monkeypatch):
@@ -308,19 +295,16 @@ def test_presets_forget_what_a_command_defined():
     presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
     base = presets["configurePresets"][0]["cacheVariables"]
     assert base["MEDIAL_TESTS"] == base["MEDIAL_PYTHON"] == "ON"
-    assert all(
-        preset["execution"] == {"noTestsAction": "error"} for preset in presets["testPresets"]
-    )
+    actions = [preset["execution"] for preset in presets["testPresets"]]
+    assert actions == len(actions) * [{"noTestsAction": "error"}]
 
 
-def compile_library(folder, source, *options):
+def compile_library(folder, source, *options, name="_medial.so"):
     """A shared library of one C++ source."""
-    target = folder / "_medial.so"
     (folder / "a.cpp").write_text(source, encoding="utf-8")
-    subprocess.run(
-        ["g++", "-shared", "-fPIC", "-o", target, folder / "a.cpp", *options], check=True
-    )
-    return target
+    words = ["g++", "-shared", "-fPIC", "-o", folder / name, folder / "a.cpp", *options]
+    subprocess.run(words, check=True)
+    return folder / name
 
 
 GOOD = 'extern "C" __attribute__((visibility("default"))) int PyInit__medial() { return 0; }\n'
@@ -331,16 +315,20 @@ def test_module_that_exports_one_symbol_passes(tmp_path):
     assert "exports PyInit__medial only" in text
 
 
-def test_module_that_exports_more_is_refused(tmp_path):
-    module = compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
-    with pytest.raises(SystemExit, match="PyInit__medial only, found 2"):
-        check_module.check(module)
+SINES = "#include <cmath>\nint sum(double x) { return std::sin(x) + std::sqrt(x); }\n"
 
 
-def test_module_that_takes_sines_from_the_c_library_is_refused(tmp_path):
-    source = GOOD + "#include <cmath>\nint sum(double x) { return std::sin(x) + std::sqrt(x); }\n"
-    module = compile_library(tmp_path, source, "-fvisibility=hidden", "-O2")
-    with pytest.raises(SystemExit, match="must not call sin of the C library"):
+@pytest.mark.parametrize(
+    "more, options, told",
+    [
+        ('extern "C" int other() { return 1; }\n', (), "PyInit__medial only, found 2"),
+        (SINES, ("-fvisibility=hidden", "-O2"), "must not call sin of the C library"),
+    ],
+    ids=["it exports more", "it takes sines from the C library"],
+)
+def test_module_that_is_refused(tmp_path, more, options, told):
+    module = compile_library(tmp_path, GOOD + more, *options)
+    with pytest.raises(SystemExit, match=told):
         check_module.check(module)
 
 
@@ -348,11 +336,7 @@ def test_module_that_takes_sines_from_the_c_library_is_refused(tmp_path):
     "name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"]
 )
 def test_module_that_needs_blenders_libraries_is_refused(tmp_path, name):
-    needed = tmp_path / name
-    subprocess.run(
-        ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"],
-        check=True,
-    )
+    needed = compile_library(tmp_path, "", f"-Wl,-soname,{name}", name=name)
     with pytest.raises(SystemExit, match=f"must not need {name}"):
         check_module.check(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
 
@@ -368,22 +352,10 @@ def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(tmp_path,
 
 
 def test_clean_removes_what_was_made(tmp_path, monkeypatch):
-    for name in (
-        "build/release/x",
-        "dist/a.zip",
-        "blender_addon/lib/m.so",
-        "core/__pycache__/a.pyc",
-        "demo_output/a.png",
-        "keep.py",
-    ):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text("x", encoding="utf-8")
-    for name, path in {
-        "ROOT": "",
-        "BUILD": "build",
-        "DIST": "dist",
-        "LIBRARY": "blender_addon/lib",
-    }.items():
+    made = "build/release/x", "dist/a.zip", "blender_addon/lib/m.so", "core/__pycache__/a.pyc"
+    write(tmp_path, dict.fromkeys((*made, "demo_output/a.png", "keep.py"), "x"))
+    places = {"ROOT": "", "BUILD": "build", "DIST": "dist", "LIBRARY": "blender_addon/lib"}
+    for name, path in places.items():
         monkeypatch.setattr(paths, name, tmp_path / path)
     assert build_addon.main(["clean"]) == 0
     assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["a.png", "keep.py"]

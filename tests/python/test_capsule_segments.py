@@ -51,10 +51,7 @@ def test_gaps_are_those_of_balls_along_a_capsule(radii):
     ends, radii = np.array([(0.1, 0, 0), (0, 0.2, 2.0)]), np.array(radii)
     places = np.random.default_rng(0).normal(size=(300, 3)) * 2.0
     share = np.linspace(0.0, 1.0, 2001)[:, None]
-    centres, sizes = (
-        (1 - share) * ends[0] + share * ends[1],
-        (1 - share) * radii[0] + share * radii[1],
-    )
+    centres, sizes = ((1 - share) * each[0] + share * each[1] for each in (ends, radii))
     away = np.linalg.norm(places[:, None] - centres, axis=2) - sizes[:, 0]
     np.testing.assert_allclose(gaps(places, ends, radii), away.min(axis=1), atol=2e-3)
 
@@ -91,33 +88,30 @@ def test_balls_in_a_row_become_so_many_segments(count):
     ends, found = segments_of(centres, radii, count, ROD, places_of(ROD), 0.05, False)
     assert ends.shape == (count, 2, 3) and found.shape == (count, 2)
     places = ends.reshape(-1, 3)
-    heights = np.sort(places[:, 2])
-    assert heights[0] == 0.0 and heights[-1] == 4.0
-    assert {tuple(place) for place in places} <= {tuple(place) for place in centres}
+    assert places[:, 2].min() == 0.0 and places[:, 2].max() == 4.0
+    assert set(map(tuple, places)) <= set(map(tuple, centres))
 
 
-def two_spheres():
-    large, small = meshes.icosphere(3), meshes.icosphere(3)
-    vertices = np.concatenate([large[0], 0.1 * small[0] + (3.0, 0, 0)])
-    triangles = np.concatenate([large[1], small[1] + len(large[0])]).astype(np.int32)
-    return vertices, triangles
+def one_segment(bound, places=None):
+    """The ends of the only segment in a large and a small ball."""
+    mesh = meshes.join(meshes.icosphere(3), meshes.icosphere(3, 0.1, (3.0, 0, 0)))
+    centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
+    return segments_of(centres, radii, 1, mesh, places or places_of(mesh), bound, False)[0]
 
 
 def test_a_place_beyond_the_bound_costs_more_than_all_places_inside():
-    mesh = two_spheres()
-    centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
-    ends, _ = segments_of(centres, radii, 1, mesh, places_of(mesh), 2.5, False)
-    assert (ends[..., 0] == 0.0).all()
+    assert (one_segment(2.5)[..., 0] == 0.0).all()
     few = np.zeros((50, 3)), np.array([(3.1, 0, 0)])
-    ends, _ = segments_of(centres, radii, 1, mesh, few, 0.05, False)
-    assert (ends[..., 0] == 3.0).all()
+    assert (one_segment(0.05, few)[..., 0] == 3.0).all()
 
 
 def test_a_bound_of_0_grows_until_it_can_be_kept():
-    mesh = two_spheres()
-    centres, radii = np.array([(0.0, 0, 0), (3.0, 0, 0)]), np.array([0.99, 0.099])
-    ends, _ = segments_of(centres, radii, 1, mesh, places_of(mesh), 0.0, False)
+    ends = one_segment(0.0)
     assert len(ends) == 1 and (ends[..., 0] == 0.0).all()
+
+
+def covered(mesh, **options):
+    return medial_axis.cover_by_balls(*mesh, sampling="vertices", **options).balls
 
 
 def test_a_spindle_has_no_end_bare():
@@ -125,22 +119,15 @@ def test_a_spindle_has_no_end_bare():
     z = np.linspace(-4.0, 4.0, 81)
     r = 0.5 * (1.0 - np.abs(z) / 4.0)
     mesh = meshes.lathe(np.column_stack([r, z]), 24)
-    balls = medial_axis.cover_by_balls(*mesh, sampling="vertices", count=16).balls
-    found = medial_axis.cover_by_balls(
-        *mesh, sampling="vertices", count=16, shapes="capsules"
-    ).balls
+    balls, found = (covered(mesh, count=16, shapes=shapes) for shapes in ("balls", "capsules"))
     assert found.farthest < balls.farthest and found.covered > balls.covered
 
 
 @pytest.mark.parametrize("shapes", ["capsules", "tapered"])
 def test_thin_ends_are_not_left_bare(shapes):
     """Edges of a small mesh end where the depth is 0; capsules round them left 3.4 of this body's 8 bare."""
-    mesh = dumb_bell()
-    balls = medial_axis.cover_by_balls(*mesh, sampling="vertices", count=8).balls
-    found = medial_axis.cover_by_balls(*mesh, sampling="vertices", count=8, shapes=shapes).balls
+    balls, found = (covered(dumb_bell(), count=8, shapes=each) for each in ("balls", shapes))
     assert found.count <= 8 and found.outside == 0.0
     assert found.farthest < 0.5 * balls.farthest and found.covered > balls.covered + 0.2
-    around = medial_axis.cover_by_balls(
-        *mesh, sampling="vertices", count=8, shapes=shapes, mode="around"
-    ).balls
+    around = covered(dumb_bell(), count=8, shapes=shapes, mode="around")
     assert around.farthest == 0.0 and around.outside < 0.5 * balls.farthest

@@ -130,10 +130,8 @@ def test_a_segment_that_leaves_the_solid_is_a_ball_at_one_end(medial):
 def test_a_radius_between_two_places_is_looked_at(medial):
     """A dent that is narrower than the places with which the search begins."""
     vertices, triangles = meshes.icosphere(5)
-    dented = (
-        vertices
-        * np.where(np.linalg.norm(vertices - (0, 0.9995, 0.03), axis=1) < 0.05, 0.2, 1.0)[:, None]
-    )
+    near = np.linalg.norm(vertices - (0, 0.9995, 0.03), axis=1) < 0.05
+    dented = vertices * np.where(near, 0.2, 1.0)[:, None]
     ends = np.array([(0.0, 0, -0.7), (0, 0, 0.7)])
     found = cover(medial, (ends, np.array([(0, 1)], np.int32), dented, triangles))
     assert reach_out(medial, found, (dented, triangles)) <= 1e-12

@@ -9,6 +9,8 @@ import signal
 import subprocess
 import sys
 import time
+from argparse import Namespace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,15 +27,9 @@ from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Choice, Switch
 from medial_axis.core.products import axis as axis_work
 from medial_axis.core.products.product import PRODUCTS
-from medial_axis.core.settings import (
-    OPTIONS,
-    Settings,
-    Side,
-)
+from medial_axis.core.settings import OPTIONS, Settings, Side
 from support.clouds import on_ellipsoid
-from support.package import PACKAGE
-
-ROOT = Path(__file__).resolve().parents[2]
+from support.package import PACKAGE, ROOT
 
 
 def egg(stretch=1.0, count=400):
@@ -54,16 +50,16 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
+def run_words(capsys, *words):
+    """The exit code, the reports of --json, and standard error."""
+    code = cli.main([*map(str, words), "--json"])
+    said = capsys.readouterr()
+    return code, [json.loads(line) for line in said.out.splitlines()], said.err
+
+
 @pytest.fixture
 def run(capsys):
-    """(words) -> exit code, reports of --json, standard error."""
-
-    def run_words(*words):
-        code = cli.main([*map(str, words), "--json"])
-        said = capsys.readouterr()
-        return code, [json.loads(line) for line in said.out.splitlines()], said.err
-
-    return run_words
+    return partial(run_words, capsys)
 
 
 @pytest.fixture(scope="session")
@@ -95,9 +91,8 @@ def test_output_is_what_compute_and_export_make(here, run):
     assert (code, said) == (cli.DONE, "")
     found = import_points("egg.xyz")
     settings = Settings(theta=np.pi / 6, side=Side.BOTH)
-    expected = compute(
-        found.vertices, np.zeros((0, 3), np.int32), settings, normals=found.normals
-    ).axis
+    none = np.zeros((0, 3), np.int32)
+    expected = compute(found.vertices, none, settings, normals=found.normals).axis
     export_axis(expected, "expected.ma")
     assert Path("egg.ma").read_bytes() == Path("expected.ma").read_bytes()
     assert report["status"] == "done" and report["facets"] == expected.facets > 0
@@ -128,38 +123,24 @@ def test_options_are_those_of_settings(capsys):
 
 @pytest.mark.parametrize("name", OPTIONS)
 def test_every_option_arrives(name):
-    option = OPTIONS[name]
+    option, word = OPTIONS[name], f"--{name}".replace("_", "-")
     if isinstance(option, Switch):
-        word = f"--{name}".replace("_", "-")
-        values = {word: True, word.replace("--", "--no-", 1): False}
-        words = {key: [key] for key in values}
+        values = {(word,): True, (word.replace("--", "--no-", 1),): False}
+    elif isinstance(option, Choice):
+        values = {(word, option_words._word(member)): member for member in option.items}
     else:
-        if isinstance(option, Choice):
-            members = {option_words._word(member): member for member in option.items}
-        else:
-            members = {str(option_words._outward(option, option.minimum)): option.minimum}
-        words = {key: [f"--{name}".replace("_", "-"), key] for key in members}
-        values = members
-    for key, value in values.items():
-        settings = parse(["a.off", *words[key], "a.ma"]).work.settings
+        values = {(word, str(option_words._outward(option, option.minimum))): option.minimum}
+    for words, value in values.items():
+        settings = parse(["a.off", *words, "a.ma"]).work.settings
         assert getattr(settings, name) == value
-        assert getattr(option_words.settings_from(argparse_of(settings), Settings), name) == value
-
-
-def argparse_of(settings):
-    """A namespace of the words of settings, as a report holds them."""
-    import argparse
-
-    return argparse.Namespace(**option_words.as_words(settings))
+        reported = Namespace(**option_words.as_words(settings))
+        assert getattr(option_words.settings_from(reported, Settings), name) == value
 
 
 def test_options_in_one_word():
     wanted = parse(["a.off", "--options", "--rho 9 --side 'both' --json", "a.ma", "--rho=7"])
-    assert (wanted.work.settings.rho, wanted.work.settings.side, wanted.json) == (
-        9.0,
-        Side.BOTH,
-        True,
-    )
+    settings = wanted.work.settings
+    assert (settings.rho, settings.side, wanted.json) == (9.0, Side.BOTH, True)
     assert parse(["a.off", "a.ma", "--options="]).work.settings == Settings()
 
 
@@ -216,9 +197,8 @@ def test_a_failing_item_does_not_stop_the_others(here, run):
 
 
 def test_what_fails_without_fault_of_the_input_is_another_code(here, run, monkeypatch):
-    code, (report,), _ = run(
-        "egg.xyz", "egg.ma", "--form", "published", "--rho", "1e9", "--criteria", "ratio"
-    )
+    strict = "--form", "published", "--rho", "1e9", "--criteria", "ratio"
+    code, (report,), _ = run("egg.xyz", "egg.ma", *strict)
     assert code == cli.FAILED and "no facet passes" in report["error"]
     assert files(here) == ["egg.xyz"]
 
@@ -328,18 +308,8 @@ def test_frames():
 
 
 DEVICES = (
-    "CON",
-    "nul",
-    "Aux",
-    "prn",
-    "COM1",
-    "com9",
-    "LPT1",
-    "COM¹",
-    "CONIN$",
-    "NUL.txt",
-    "con .x",
-)
+    "CON", "nul", "Aux", "prn", "COM1", "com9", "LPT1", "COM¹", "CONIN$", "NUL.txt", "con .x",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("name", [".", "..", "...", "Body.", "Body ", " ", *DEVICES])
@@ -396,9 +366,8 @@ def test_what_changed_is_computed_again(here, run, change):
 
 
 def test_folder_of_the_package_is_a_program(here):
-    done = subprocess.run(
-        [sys.executable, str(PACKAGE), "egg.xyz", "egg.ma"], capture_output=True, text=True
-    )
+    words = [sys.executable, str(PACKAGE), "egg.xyz", "egg.ma"]
+    done = subprocess.run(words, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "") and Path("egg.ma").is_file()
 
 
@@ -412,13 +381,6 @@ def test_blend_files_need_blender(here, run):
     Path("a.blend").write_bytes(b"BLENDER")
     code, (report,), _ = run("a.blend", "a.ma")
     assert code == cli.INPUT and "found 'a.blend'" in report["error"]
-
-
-def wait_for(condition, seconds=60):
-    until = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < until, "it did not happen"
-        time.sleep(0.005)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -443,13 +405,11 @@ def test_killed_while_writing_leaves_the_old_file(here, program):
     words = "big.npy", "out/big.off", "--mesh", "voronoi"  # a file that takes a while
     assert program(*words, "--rho", "20").returncode == 0
     old = Path("out/big.off").read_bytes(), Path("out/big.off.json").read_bytes()
-    process = program(*words, popen=True)
-
-    def is_writing():
+    process, until = program(*words, popen=True), time.monotonic() + 60
+    while not any(path.stat().st_size for path in Path("out").glob(".medial_axis_*.tmp")):
         assert process.poll() is None, "it was written before it could be killed"
-        return any(path.stat().st_size > 0 for path in Path("out").glob(".medial_axis_*.tmp"))
-
-    wait_for(is_writing)
+        assert time.monotonic() < until, "it did not begin to write"
+        time.sleep(0.005)
     process.kill()
     process.communicate()
     assert (Path("out/big.off").read_bytes(), Path("out/big.off.json").read_bytes()) == old
@@ -460,17 +420,15 @@ def test_killed_while_writing_leaves_the_old_file(here, program):
 
 def test_two_at_once_in_one_folder(here, program):
     """The same work runs twice, next to other work: every file is whole, and equal to one made alone."""
-    names = []
-    for i in range(3):
-        np.save(f"egg{i}.npy", egg(1 + i / 5, 3000))
-        names.append(f"egg{i}.npy")
+    names = [f"egg{i}.npy" for i in range(3)]
+    for i, name in enumerate(names):
+        np.save(name, egg(1 + i / 5, 3000))
     assert program(*names, "alone/").returncode == 0
     both = [program(*order, "out/", popen=True) for order in (names, names[::-1])]
     assert [(p.communicate()[1], p.returncode) for p in both] == [("", 0)] * 2
     assert files(here / "out") == files(here / "alone")
-    for name in names:
-        output = Path(name).with_suffix(".ma")
-        assert (here / "out" / output).read_bytes() == (here / "alone" / output).read_bytes()
+    for name in ("egg0.ma", "egg1.ma", "egg2.ma"):
+        assert (here / "out" / name).read_bytes() == (here / "alone" / name).read_bytes()
     kept = program(*names, "out/", "--json")
     assert [json.loads(x)["status"] for x in kept.stdout.splitlines()] == ["kept"] * 3
 
@@ -516,8 +474,7 @@ def test_documented_commands(here, program):
     commands = documented("command_line.md")
     assert len(commands) >= 5
     for command in commands:
-        words = shlex.split(command.partition("#!")[0])[3:]
-        done = program(*words)
+        done = program(*shlex.split(command.partition("#!")[0])[3:])
         assert done.returncode == 0, f"{command}: {done.stderr}"
 
 

@@ -11,6 +11,7 @@ from medial_axis.core.axis.medial_axis import MedialAxis
 from medial_axis.core.machine import native
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
+from support.measure import polygons
 from support.meshes import icosphere
 
 
@@ -29,18 +30,13 @@ def box_of(points):
     return points.min(axis=0), points.max(axis=0)
 
 
-def facets_of(axis):
-    return np.split(axis.face_vertices, axis.face_offsets[1:-1])
-
-
 def free_edges(axis):
     """The edges of one facet only, by the places of their ends."""
     edges = Counter()
-    for facet in facets_of(axis):
+    for facet in polygons(axis):
         corners = list(map(tuple, axis.vertices[facet].tolist()))
-        edges.update(
-            tuple(sorted(pair)) for pair in zip(corners, corners[1:] + corners[:1], strict=True)
-        )
+        sides = zip(corners, corners[1:] + corners[:1], strict=True)
+        edges.update(tuple(sorted(side)) for side in sides)
     return {edge for edge, times in edges.items() if times == 1}
 
 
@@ -62,22 +58,13 @@ def area_within(corners, low, high):
     ]
     sides = np.array([*ConvexHull(flat).equations, *(np.append(n, d) for n, d in walls)])
     sides = sides[np.linalg.norm(sides[:, :2], axis=1) > 1e-12]
-    inside = _deepest(sides)
-    if inside is None:
+    # The largest circle within the half-planes.
+    rows = np.column_stack((sides[:, :2], np.linalg.norm(sides[:, :2], axis=1)))
+    bounds = [(None, None)] * 2 + [(0, None)]
+    circle = linprog((0, 0, -1), rows, -sides[:, 2], bounds=bounds)
+    if not circle.success or circle.x[2] <= 1e-9:
         return 0.0
-    return ConvexHull(HalfspaceIntersection(sides, inside).intersections).volume
-
-
-def _deepest(sides):
-    """The centre of the largest circle within half-planes, or None."""
-    length = np.linalg.norm(sides[:, :2], axis=1)
-    found = linprog(
-        (0, 0, -1),
-        np.column_stack((sides[:, :2], length)),
-        -sides[:, 2],
-        bounds=[(None, None)] * 2 + [(0, None)],
-    )
-    return found.x[:2] if found.success and found.x[2] > 1e-9 else None
+    return ConvexHull(HalfspaceIntersection(sides, circle.x[:2]).intersections).volume
 
 
 def test_what_is_left_of_each_facet_is_what_qhull_finds(outer):
@@ -86,20 +73,16 @@ def test_what_is_left_of_each_facet_is_what_qhull_finds(outer):
     middle = sum(box_of(points)) / 2
     low, high = (middle + 1.2 * (side - middle) for side in box_of(points))
     mine = Counter()
-    for generators, facet in zip(
-        map(tuple, left.generators.tolist()), facets_of(left), strict=True
-    ):
-        mine[generators] += area(left.vertices[facet])
+    for generators, facet in zip(left.generators.tolist(), polygons(left), strict=True):
+        mine[tuple(generators)] += area(left.vertices[facet])
     cut = 0
-    for generators, facet in zip(
-        map(tuple, axis.generators.tolist()), facets_of(axis), strict=True
-    ):
+    for generators, facet in zip(axis.generators.tolist(), polygons(axis), strict=True):
         corners = axis.vertices[facet]
         try:
             whole = area_within(corners, low, high)
         except QhullError:  # a facet of no area
             continue
-        assert mine[generators] == pytest.approx(whole, rel=1e-6, abs=1e-8)
+        assert mine[tuple(generators)] == pytest.approx(whole, rel=1e-6, abs=1e-8)
         cut += 0.0 < whole < 0.999 * area(corners)
     assert cut > 50
 
@@ -107,11 +90,8 @@ def test_what_is_left_of_each_facet_is_what_qhull_finds(outer):
 def test_balls_of_new_vertices_touch_the_samples(outer):
     axis, points = outer
     left = within_box(axis, *box_of(points), 1.2)
-    far = np.linalg.norm(
-        left.vertices[left.face_vertices]
-        - points[np.repeat(left.generators[:, 0], np.diff(left.face_offsets))],
-        axis=1,
-    )
+    samples = points[np.repeat(left.generators[:, 0], np.diff(left.face_offsets))]
+    far = np.linalg.norm(left.vertices[left.face_vertices] - samples, axis=1)
     np.testing.assert_allclose(left.radius[left.face_vertices], far, rtol=1e-9)
 
 

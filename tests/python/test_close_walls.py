@@ -6,9 +6,13 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
+from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.settings import Edges, SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.shape.shape import Shape
+from medial_axis.core.thickness import close_walls
+from medial_axis.core.thickness import thickness as thickness_module
 from medial_axis.core.thickness.face_lengths import MeasuredFaces
+from medial_axis.core.thickness.face_pieces import _lattice
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
 from medial_axis.core.thickness.write_thickness import export_thickness
@@ -43,17 +47,13 @@ def cube_with_fin(width, thickness):
     top = np.array(foot) + np.array((0, 0, 0.1))
     faces = [(0, 3, 2, 1), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
     for start in (4, 8):  # the top around the fin, then its sides
-        ring = [
-            (start + i, start + (i + 1) % 4, start + 4 + (i + 1) % 4, start + 4 + i)
-            for i in range(4)
-        ]
-        faces += ring
+        ends = [(start + i, start + (i + 1) % 4) for i in range(4)]
+        faces += [(a, b, b + 4, a + 4) for a, b in ends]
     return np.concatenate([cube, foot, top]), halves([*faces, (12, 13, 14, 15)])
 
 
-def measured(points, triangles, **wanted):
-    shape = Shape(np.asarray(points, float), triangles.astype(np.int32))
-    return measure_thickness(shape, Settings(), ThicknessSettings(**wanted))
+def measured(*mesh, settings=Settings(), **wanted):
+    return measure_thickness(meshes.shape_of(mesh), settings, ThicknessSettings(**wanted))
 
 
 def normals_of(points, triangles):
@@ -62,17 +62,7 @@ def normals_of(points, triangles):
     return normals / np.linalg.norm(normals, axis=1)[:, None]
 
 
-def write(path, points, triangles):
-    rows = [f"OFF\n{len(points)} {len(triangles)} 0"]
-    rows += ["{!r} {!r} {!r}".format(*map(float, row)) for row in points]
-    rows += ["3 {} {} {}".format(*row) for row in triangles.tolist()]
-    path.write_text("\n".join(rows))
-    return path
-
-
-FINS = [
-    (width, thickness) for width in (0.05, 0.1, 0.2, 0.5) for thickness in (0.002, 0.0005, 1e-5)
-]
+FINS = [(width, t) for width in (0.05, 0.1, 0.2, 0.5) for t in (0.002, 0.0005, 1e-5)]
 
 
 def values_near(found, places, reach):
@@ -135,9 +125,8 @@ def test_fuzzed_thin_parts(medial, seed):
     turned = mesh[0] @ Rotation.random(random_state=seed).as_matrix().T
     points = (turned + rng.uniform(-2.0, 2.0, 3)) * 10 ** rng.uniform(-8.0, 8.0)
     sampling = (SamplingMode.SURFACE, SamplingMode.VERTICES)[seed % 2]
-    wanted = ThicknessSettings(edges=list(Edges)[seed % 3])
-    shape = Shape(points, mesh[1].astype(np.int32))
-    found = measure_thickness(shape, Settings(sampling=sampling, samples=2_000), wanted)
+    settings = Settings(sampling=sampling, samples=2_000)
+    found = measured(points, mesh[1], settings=settings, edges=list(Edges)[seed % 3])
     if isinstance(found.chosen, MeasuredFaces):
         assert_below_rays(found, medial)
     else:
@@ -192,8 +181,7 @@ def test_the_area_of_a_fin_is_its_own(width, thickness):
 def test_vertices_that_are_samples_have_the_length_of_the_faces_at_them():
     """A fine cube with a fin whose own faces are large."""
     points, triangles = cube_with_fin(0.5, 0.002)
-    shape = Shape(points, triangles.astype(np.int32))
-    found = measure_thickness(shape, Settings(sampling=SamplingMode.VERTICES), ThicknessSettings())
+    found = measured(points, triangles, settings=Settings(sampling=SamplingMode.VERTICES))
     sides = np.abs(normals_of(points, triangles)[:, 1]) > 0.9
     sides &= triangles.min(axis=1) >= 8
     assert (found.of_triangles[sides] <= 0.00201).all() and (found.of_vertices[8:] <= 0.00201).all()
@@ -213,9 +201,8 @@ def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
     assert parts.minimum == pytest.approx(0.002, rel=1e-6)
     # The ends have two middle lines where balls come to rest, 0.2 high up to x = 0.8 and 0.001 high from x = 1 on. Low
     # places from x = 0.8 on are nearer to the second one; as few places lie on the first, this begins before.
-    assert (
-        place[thin, 0].min() > 0.7 and place[np.isfinite(found.of_triangles) & thin, 0].min() > 0.95
-    )
+    assert place[thin, 0].min() > 0.7
+    assert place[np.isfinite(found.of_triangles) & thin, 0].min() > 0.95
     assert parts.area == pytest.approx(1.0, rel=0.05)
     assert found.of_vertices[[1, 2, 7, 8]] == pytest.approx(np.full(4, 0.002), rel=0.01)
     assert (found.of_vertices[[0, 5, 6, 11]] > 0.3).all()
@@ -223,8 +210,6 @@ def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
 
 @pytest.mark.parametrize("cut", [1, 2, 5])
 def test_pieces_cover_a_face(cut):
-    from medial_axis.core.thickness.face_pieces import _lattice
-
     shares, pieces = _lattice(cut)
     corners = shares[pieces] @ np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -241,8 +226,7 @@ def test_plates_have_their_thickness_however_thin(thickness):
 
 
 def moved_block(*offset):
-    points, triangles = box(1.0, 1.0, 1.0)
-    return points + np.array(offset), triangles
+    return meshes.moved(box(1.0, 1.0, 1.0), offset)
 
 
 def test_a_fin_on_parts_that_overlap():
@@ -276,16 +260,13 @@ def test_ways_end_where_the_solid_does(data_file, medial):
 
 def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
     """Where the axis and the rays find nothing: here by taking the walls away."""
-    from medial_axis.core.machine.cache import CACHE
-    from medial_axis.core.thickness import close_walls, thickness
-
     CACHE.clear()  # another test may have measured this plate by its faces
     nothing = lambda shape, *_: close_walls.no_close_walls(shape)
-    monkeypatch.setattr(thickness, "close_walls", nothing)
-    monkeypatch.setattr(thickness, "are_enough", lambda *_: False)
-    source = write(tmp_path / "plate.off", *box(1.0, 1.0, 1e-5))
+    monkeypatch.setattr(thickness_module, "close_walls", nothing)
+    monkeypatch.setattr(thickness_module, "are_enough", lambda *_: False)
+    source = meshes.write_off(tmp_path / "plate.off", box(1.0, 1.0, 1e-5))
     output = tmp_path / "plate.json"
-    assert cli.main(["thickness", str(source), str(output), "--limit", "0.02"]) == cli.UNMEASURED
+    assert cli.main(["thickness", source, str(output), "--limit", "0.02"]) == cli.UNMEASURED
     found = json.loads(output.read_text())
     assert found["share_unmeasured"] > 0.9 and found["minimum"] is None
     assert any("no thickness could be measured" in text for text in found["warnings"])
@@ -297,16 +278,13 @@ def test_what_is_left_out_on_purpose_is_not_unknown():
 
 def test_only_wedges_of_the_solid_are_acute_edges():
     """Inside out, the sharp edge of a wedge is that of a groove, where ways through the solid do not become short."""
-    from medial_axis.core.thickness.close_walls import _acute_edges
-
-    points = np.array(
-        [(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (4.0, -1.0), (4.0, 1.0))]
-    )
+    profile = ((0.0, 0.0), (4.0, -1.0), (4.0, 1.0))
+    points = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in profile])
     triangles = np.array(
         [(0, 1, 2), (3, 5, 4), (0, 3, 4), (0, 4, 1), (1, 4, 5), (1, 5, 2), (2, 5, 3), (2, 3, 0)],
         np.int32,
     )
     outward = triangles if Shape(points, triangles).volume > 0 else triangles[:, ::-1]
-    found = _acute_edges(Shape(points, outward))
+    found = close_walls._acute_edges(Shape(points, outward))
     assert sorted(map(tuple, found.reshape(-1, 3).tolist())) == [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
-    assert len(_acute_edges(Shape(points, outward[:, ::-1]))) == 0
+    assert len(close_walls._acute_edges(Shape(points, outward[:, ::-1]))) == 0

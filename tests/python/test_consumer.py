@@ -6,17 +6,22 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 INCLUDE = ROOT / "native" / "include"
 CONSUMER = ROOT / "tests" / "consumer"
 # Headers by themselves are quick; what needs a build of the library waits for the same one.
 LIBRARY = pytest.mark.xdist_group("consumer")
+slow = pytest.mark.slow  # the project compiles the whole core, for more than a minute
 HEADERS = sorted(path.relative_to(INCLUDE).as_posix() for path in INCLUDE.rglob("*.h"))
 
 
+def finished(*words):
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True)
+
+
 def run(*words):
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    done = finished(*words)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -26,10 +31,6 @@ def tools():
     for tool in ("cmake", "ninja", "g++"):
         if shutil.which(tool) is None:
             pytest.skip(f"{tool} is not installed")
-
-
-# The project compiles the whole core, for more than a minute.
-slow = pytest.mark.slow
 
 
 @pytest.mark.parametrize("header", HEADERS)
@@ -84,19 +85,14 @@ def test_installed_library(with_sources, installed, tmp_path):
 @slow
 @LIBRARY
 def test_what_is_installed(installed):
-    files = {
-        path.relative_to(installed).as_posix() for path in installed.rglob("*") if path.is_file()
-    }
+    paths = [path for path in installed.rglob("*") if path.is_file()]
+    files = {path.relative_to(installed).as_posix() for path in paths}
     headers = {f"include/{name}" for name in HEADERS}
     (library,) = {name for name in files if name.endswith("/libmedial.a")}
     folder = library.removesuffix("libmedial.a")
     package = {name for name in files if name.startswith(f"{folder}cmake/medial/")}
-    assert {Path(name).name for name in package} == {
-        "medial-config.cmake",
-        "medial-config-version.cmake",
-        "medial-targets.cmake",
-        "medial-targets-release.cmake",
-    }
+    kinds = ("config", "config-version", "targets", "targets-release")
+    assert {Path(name).name for name in package} == {f"medial-{kind}.cmake" for kind in kinds}
     assert files == headers | package | {library, "share/licenses/medial/LICENSE"}
     texts = "".join((installed / name).read_text() for name in package)
     assert str(ROOT) not in texts, "nothing installed leads back to the sources"
@@ -105,20 +101,18 @@ def test_what_is_installed(installed):
 @slow
 @LIBRARY
 def test_another_version_is_refused(installed, tmp_path):
-    lists = tmp_path / "CMakeLists.txt"
-    lists.write_text(
+    (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
         "find_package(medial 99 CONFIG REQUIRED)\n"
     )
-    words = ("cmake", "-S", tmp_path, "-B", tmp_path / "b", f"-DCMAKE_PREFIX_PATH={installed}")
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    folders = ("-S", tmp_path, "-B", tmp_path / "b", f"-DCMAKE_PREFIX_PATH={installed}")
+    done = finished("cmake", *folders)
     assert done.returncode != 0 and '"99"' in done.stderr
 
 
 def test_missing_headers_are_named(tmp_path):
     nowhere = ("-DCGAL_INCLUDE_DIR=CGAL_INCLUDE_DIR-NOTFOUND", "-DCMAKE_FIND_ROOT_PATH=/nowhere")
     only = ("-DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY", "-DMEDIAL_PYTHON=OFF", "-DMEDIAL_TESTS=OFF")
-    words = ("cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path, *nowhere, *only)
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    done = finished("cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path, *nowhere, *only)
     assert done.returncode != 0
     assert "Expected the headers of CGAL" in done.stderr and "libcgal-dev" in done.stderr

@@ -4,42 +4,31 @@
 The 8000-sample runs use 1 seed by default, all 5 with --slow.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
-from support import measure, meshes, reference, shapes
+from support import inputs, measure, meshes, reference, shapes
 from support.accuracy import BARS
 from support.shapes import SHAPES
 
 pytestmark = pytest.mark.oracle
 
 BETTI = {
-    "ellipsoid": (1, 0, 0),
-    "oblate": (1, 0, 0),
-    "slab": (1, 0, 0),
-    "shell": (1, 0, 1),
-    "torus": (1, 1, 0),
-    "knot": (1, 1, 0),
-}
+    "ellipsoid": (1, 0, 0), "oblate": (1, 0, 0), "slab": (1, 0, 0), "shell": (1, 0, 1),
+    "torus": (1, 1, 0), "knot": (1, 1, 0),
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def extracted(medial):
     """(shape, n, seed) -> mesh with the paper's thresholds, computed once."""
-    cache = {}
-
-    def extract(name, n, seed):
-        if (name, n, seed) not in cache:
-            cache[name, n, seed] = medial.MedialAnalysis(SHAPES[name].sample(n, seed)).extract()
-        return cache[name, n, seed]
-
-    return extract
+    return cache(lambda *key: medial.MedialAnalysis(SHAPES[key[0]].sample(*key[1:])).extract())
 
 
 def assert_within_bars(mesh, name, n):
-    found = measure.errors(mesh, SHAPES[name]).row()
-    assert all(a <= b for a, b in zip(found, BARS[name][n])), [
-        f"{a:.2g} of {b:.2g}" for a, b in zip(found, BARS[name][n])
-    ]
+    pairs = [*zip(measure.errors(mesh, SHAPES[name]).row(), BARS[name][n])]
+    assert all(a <= b for a, b in pairs), [f"{a:.2g} of {b:.2g}" for a, b in pairs]
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -81,12 +70,9 @@ def test_the_judge_of_topology_knows_surfaces():
 def test_topology_at_2000_samples(extracted, name):
     """Betti numbers of the closed inner complex, mod 2. Raw output may have an island at its rim for some seeds
     (algorithm: sect. 5 of the measurements), so most of the 5 seeds must be exactly right."""
-    found = []
-    for seed in range(5):
-        mesh = extracted(name, 2000, seed)
-        found.append(
-            reference.betti_numbers(*measure.keep(mesh, measure.inner_facets(mesh, SHAPES[name])))
-        )
+    raw = [extracted(name, 2000, seed) for seed in range(5)]
+    inner = [measure.keep(mesh, measure.inner_facets(mesh, SHAPES[name])) for mesh in raw]
+    found = [reference.betti_numbers(*facets) for facets in inner]
     assert found.count(BETTI[name]) >= 3, found
 
 
@@ -99,8 +85,6 @@ def test_no_facet_of_an_ellipsoid_reaches_infinity(extracted, name, seed):
 @pytest.mark.parametrize("turn", range(3))
 def test_turned_grid_cube(medial, turn):
     """The same with rounding errors in every tie."""
-    from support import inputs
-
     rotation = inputs.rotation(turn)
     mesh = medial.MedialAnalysis(shapes.grid_cube(8) @ rotation.T).extract()
     cube = shapes.Box(4.0, 4.0, 4.0)

@@ -6,7 +6,9 @@ The measures are tested on axes made by hand; those of the product only where it
 
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import combinations, product
 
+import medial_axis
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -23,7 +25,7 @@ from support import (
 from support.crisp_measures import Output
 from support.crisp_runs import Case
 
-NAMES = crisp_solids.NAMES
+NAMES, BOX = crisp_solids.NAMES, crisp_solids.solid("box")
 WALLED = [name for name in NAMES if isinstance(crisp_solids.solid(name), crisp_solids.Walled)]
 
 
@@ -100,7 +102,7 @@ def output_of(vertices, polygons, across):
     triangles = [(p[0], p[i], p[i + 1]) for p in turned for i in range(1, len(p) - 1)]
     return Output(
         vertices=vertices,
-        radius=crisp_solids.solid("box").distance(vertices),
+        radius=BOX.distance(vertices),
         face_offsets=np.cumsum([0, *map(len, turned)]),
         face_vertices=np.concatenate(turned),
         wires=np.empty((0, 2), int),
@@ -110,16 +112,14 @@ def output_of(vertices, polygons, across):
 
 
 def measured(output):
-    return crisp_measures.measured(crisp_solids.solid("box"), output, 4000)
+    return crisp_measures.measured(BOX, output, 4000)
 
 
 def moved(row, by):
     """The axis of the box with a vertex elsewhere; the radii are those of the places."""
     vertices = axis_of_box().vertices.copy()
     vertices[row] += by
-    return replace(
-        axis_of_box(), vertices=vertices, radius=crisp_solids.solid("box").distance(vertices)
-    )
+    return replace(axis_of_box(), vertices=vertices, radius=BOX.distance(vertices))
 
 
 def test_exact_axis_of_the_box_has_no_error():
@@ -133,7 +133,7 @@ def test_exact_axis_of_the_box_has_no_error():
 
 def test_a_moved_junction_is_noticed():
     found = measured(moved(11, (0.0, 0.0, 1e-6)))
-    moved_by = 1e-6 / crisp_solids.solid("box").diagonal
+    moved_by = 1e-6 / BOX.diagonal
     assert 0.7 * moved_by < found.err.most < moved_by
     assert found.cov.most > 1e-7 and abs(found.area) > 1e-13
     assert found.gap.most < 1e-13 and found.ball.most < 1e-15
@@ -141,16 +141,15 @@ def test_a_moved_junction_is_noticed():
 
 def test_a_corner_that_is_not_reached_is_noticed():
     found = measured(moved(0, (0.01, 0.01, 0.01)))
-    assert found.gap.most * crisp_solids.solid("box").spacing(4000) == pytest.approx(0.01, rel=0.8)
+    assert found.gap.most * BOX.spacing(4000) == pytest.approx(0.01, rel=0.8)
     assert found.rim < 0.999 and found.area < -1e-3 and found.cov.most > 1e-4
     assert found.err.most < 1e-15
 
 
 def test_the_rim_of_the_box_turns_at_its_corners_only():
     """Each corner of the box is the end of three of its edges, and no vertex of the axis is between two of one line."""
-    bent = replace(
-        axis_of_box(), face_offsets=np.array([0, 4]), face_vertices=np.array([8, 9, 11, 10])
-    )
+    facet = {"face_offsets": np.array([0, 4]), "face_vertices": np.array([8, 9, 11, 10])}
+    bent = replace(axis_of_box(), **facet)
     assert len(crisp_measures.rim_turns(axis_of_box())) == 0
     assert crisp_measures.rim_turns(bent) == pytest.approx(90.0)
 
@@ -159,7 +158,7 @@ def test_a_wrong_radius_is_noticed():
     radius = axis_of_box().radius.copy()
     radius[8] *= 1 + 1e-6
     found = measured(replace(axis_of_box(), radius=radius))
-    assert found.ball.most == pytest.approx(0.4e-6 / crisp_solids.solid("box").diagonal, rel=1e-3)
+    assert found.ball.most == pytest.approx(0.4e-6 / BOX.diagonal, rel=1e-3)
 
 
 @pytest.mark.parametrize("row", range(13))
@@ -175,10 +174,10 @@ def test_a_polygon_that_turns_the_other_way_is_folded(row):
 
 def brute_crossings(points, triangles):
     pairs = []
-    for i, a in enumerate(triangles):
-        for j in range(i + 1, len(triangles)):
-            if not set(a) & set(triangles[j]):
-                pairs.append((i, j)) if crosses(points[a], points[triangles[j]]) else None
+    for i, j in combinations(range(len(triangles)), 2):
+        a, b = triangles[[i, j]]
+        if not set(a) & set(b) and crosses(points[a], points[b]):
+            pairs.append([i, j])
     return pairs
 
 
@@ -204,10 +203,8 @@ def test_crossing_pairs_are_those_of_all_pairs(seed):
     triangles = rng.permutation(150).reshape(50, 3)
     points[triangles[:, 1:]] = points[triangles[:, :1]] + 0.3 * rng.normal(size=(50, 2, 3))
     triangles = np.concatenate((triangles, triangles[:, [1, 2, 0]]))  # twins are no crossings
-    found = crossing_triangles.crossing_pairs(points, triangles)
-    assert len(found) > 40 and found.tolist() == [
-        list(p) for p in brute_crossings(points, triangles)
-    ]
+    found = crossing_triangles.crossing_pairs(points, triangles).tolist()
+    assert len(found) > 40 and found == brute_crossings(points, triangles)
 
 
 def test_a_crossing_pair_of_an_axis_is_noticed():
@@ -265,16 +262,12 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
         **{"err": 3e-3, "cov": 8e-3, "cov_99": 4e-3, "gap": 0.055, "crossings": 1},
     },
     ("oblate", 4_000): {
-        "err": 5e-3,
-        "err_99": 3.3e-3,
-        "cov": 3.2e-3,
-        "cov_99": 1.3e-3,
-        "ball": 2e-4,
+        "err": 5e-3, "err_99": 3.3e-3, "cov": 3.2e-3, "cov_99": 1.3e-3, "ball": 2e-4,
     },
     ("oblate", 20_000): {"err": 5e-3, "err_99": 1.3e-3, "cov": 8e-3, "cov_99": 8e-4},
     ("ellipsoid", 4_000): {"err": 5e-3, "err_99": 4e-3, "cov": 3.2e-3, "cov_99": 1.4e-3},
     ("ellipsoid", 20_000): {"err": 4.5e-3, "err_99": 1.5e-3, "cov": 8e-3, "cov_99": 9e-4},
-}
+}  # fmt: skip
 
 
 def bars(case: Case) -> Bars:
@@ -312,24 +305,15 @@ def broken(case: Case, found: crisp_measures.Found) -> list[str]:
         "area": (abs(found.area or 0.0), bar.area),
         "folds": (found.folds, bar.folds),
     }
-    return [
-        f"{name} {value:.3g} > {most:g}" for name, (value, most) in values.items() if value > most
-    ]
+    return [f"{name} {x:.3g} > {most:g}" for name, (x, most) in values.items() if x > most]
 
 
+QUICK = (4_000, 0, False)
 CASES = [
-    pytest.param(
-        case,
-        marks=() if (case.count, case.seed, case.single) == (4_000, 0, False) else pytest.mark.slow,
-        id=str(case),
-    )
-    for case in (
-        Case(name, count, seed, single)
-        for name in (*FLAT, *REFLEX, *CURVED, *SMOOTH)
-        for count in (4_000, 20_000)
-        for seed in range(3)
-        for single in (False, True)
-    )
+    pytest.param(case, marks=() if key == QUICK else pytest.mark.slow, id=str(case))
+    for name in (*FLAT, *REFLEX, *CURVED, *SMOOTH)
+    for key in product((4_000, 20_000), range(3), (False, True))
+    for case in [Case(name, *key)]
 ]
 
 
@@ -356,8 +340,6 @@ def test_the_bars_can_fail():
 
 
 def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(medial, data_file):
-    import medial_axis
-
     mesh = meshes.read(data_file("fandisk_large.off"))
     made = medial_axis.compute(*mesh, sampling="surface", samples=8_000)
     output = crisp_measures.output_of(made, np.eye(3))
@@ -373,8 +355,6 @@ def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_few_teeth(medial, data
 def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(medial):
     """The upright sheet of a prism over an ellipse ends at the curvature of the ellipse, and at the sheets that lead
     into the edges of the two flat faces. Its rims must not be drawn on to these edges."""
-    import medial_axis
-
     points, triangles = crisp_solids.solid("cylinder").mesh
     points = points * (1.0, 0.4, 1.0)
     a, _, half = np.ptp(points, axis=0) / 2
@@ -391,8 +371,6 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(medial):
 @pytest.mark.parametrize("sides, t", ((12, 0.005), (6, 0.002)))
 def test_the_rim_round_a_thin_plate_stays_where_it_is(medial, sides, t):
     """One closed line ends the sheet, and its vertices were drawn together in one place: facets were 0.9 wide."""
-    import medial_axis
-
     made = medial_axis.compute(*mid_surfaces.round_plate(sides, t).mesh, samples=2_500)
     output = crisp_measures.output_of(made, np.eye(3))
     ends = output.vertices[output.face_vertices[output.following()]]

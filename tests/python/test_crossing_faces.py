@@ -15,9 +15,8 @@ RIGHT = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
 
 
 def crossing(points, triangles, **options):
-    return native.load().crossing_faces(
-        np.asarray(points, float), np.asarray(triangles, np.int32), **options
-    )
+    shape = meshes.shape_of((points, triangles))
+    return native.load().crossing_faces(shape.points, shape.triangles, **options)
 
 
 def soup(*corners):
@@ -54,8 +53,8 @@ def test_a_soup_crosses_as_in_floating_point(seed):
 
 
 def test_what_touches_does_not_cross():
-    lower, faces = meshes.box((1, 1, 1))
-    stacked = meshes.join((lower, faces), (np.add(lower, (0.3, 0.4, 0.8)), faces))
+    lower = meshes.box((1, 1, 1))
+    stacked = meshes.join(lower, meshes.moved(lower, (0.3, 0.4, 0.8)))
     assert len(crossing(*stacked)) == 0, "a box that stands on another one"
     standing = soup(RIGHT, [[0.2, 0.2, 0], [0.3, 0.3, 1], [0.2, 0.3, 1]])
     assert len(crossing(*standing)) == 0, "a corner on a triangle"
@@ -98,11 +97,7 @@ def test_a_rope_beside_itself_is_right():
 def side_of(a, b, c, d):
     """The side of the plane through a, b and c on which d lies, of exact fractions."""
     u, v, w = (np.array([Fraction(x) for x in p]) - [Fraction(x) for x in a] for p in (b, c, d))
-    found = (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        - u[1] * (v[0] * w[2] - v[2] * w[0])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )
+    found = np.dot(u, np.cross(v, w))
     return (found > 0) - (found < 0)
 
 

@@ -14,16 +14,11 @@ from medial_axis.core.curves.net import Net
 from medial_axis.core.curves.removals import recorded
 from medial_axis.core.curves.smooth_line import Course, smooth_between
 from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
-from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.united import united
-from support.meshes import capsule, flip, icosphere, join, torus
+from support.meshes import capsule, flip, icosphere, join, moved, shape_of, torus
 
 DETAILS = (1.0, 0.75, 0.5, 0.25, 0.0)
-
-
-def moved(mesh, x):
-    return np.asarray(mesh[0], float) + np.array((x, 0, 0)), mesh[1]
 
 
 def tongs():
@@ -34,9 +29,8 @@ def tongs():
 
 def bells():
     """Two hollow balls on a bar."""
-    ball = icosphere(3)
-    hole = flip((np.asarray(ball[0]) * 0.4, ball[1]))
-    return join(ball, hole, moved(ball, 4), moved(hole, 4), capsule((0.7, 0, 0), (3.3, 0, 0), 0.3))
+    ball = join(icosphere(3), flip(icosphere(3, 0.4)))
+    return join(ball, moved(ball, (4, 0, 0)), capsule((0.7, 0, 0), (3.3, 0, 0), 0.3))
 
 
 SOLIDS = {"tongs": (tongs, 1_200), "bells": (bells, 2_500), "torus": (torus, 1_000)}
@@ -47,10 +41,8 @@ def curves():
     """{solid: (its computation, {detail: smooth curve}, {detail: curve along the wires})}."""
     found = {}
     for name, (solid, samples) in SOLIDS.items():
-        points, triangles = solid()
-        shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
         settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=samples)
-        computation = compute_axis(shape, settings)
+        computation = compute_axis(shape_of(solid()), settings)
         smooth, raw = {}, {}
         for detail in DETAILS:
             wanted = replace(computation.settings, detail=detail)
@@ -112,7 +104,7 @@ def test_less_detail_has_only_what_more_has(curves):
 def test_without_detail_the_curve_has_the_branches_of_the_skeleton(curves):
     for name in ("tongs", "torus"):
         computation, smooth, _ = curves[name]
-        shape = Shape(*(np.asarray(a) for a in SOLIDS[name][0]()))
+        shape = shape_of(SOLIDS[name][0]())
         found = compute_skeleton(shape, computation.settings, SkeletonSettings()).skeleton
         axis = smooth[0.0]
         assert (tips(axis), axis.level.betti[1]) == (found.tips, found.loops)
@@ -121,10 +113,8 @@ def test_without_detail_the_curve_has_the_branches_of_the_skeleton(curves):
 @pytest.mark.parametrize("samples", [1_000, 1_500, 2_000])
 def test_arms_that_touch_at_their_ends_stay(samples):
     """The last rung leads from end to end, so that the arms beyond the last but one are a part of a loop."""
-    points, triangles = tongs()
-    shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
     settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=samples, detail=0.0)
-    axis = compute_axis(shape, settings).axis
+    axis = compute_axis(shape_of(tongs()), settings).axis
     far = axis.vertices[axis.vertices[:, 0] > 3.5, 1]
     assert axis.level.betti == (1, 0, 0) and tips(axis) == 2
     assert far.min() < 0.1 and far.max() > 0.5
@@ -251,7 +241,7 @@ def test_a_skeleton_starts_from_the_curve_that_is_seen(curves, name, detail):
     """It has its loops, and its tips but for branches between forks whose balls nearly agree."""
     computation, smooth, _ = curves[name]
     axis, settings = smooth[detail], replace(computation.settings, detail=detail)
-    shape = Shape(*(np.asarray(a) for a in SOLIDS[name][0]()))
+    shape = shape_of(SOLIDS[name][0]())
     found = compute_skeleton(shape, settings, SkeletonSettings(), shown=settings)
     assert (found.skeleton.tips, found.skeleton.loops) == (tips(axis), axis.level.betti[1])
     assert (found.loops.cut + found.loops.filled == 0) == (detail == 1.0 or name == "torus")

@@ -92,10 +92,8 @@ def strips(*lengths, side=2):
     points = [
         p for k, x in enumerate(lengths) for p in ((0, 9 * k, 0), (x, 9 * k, 0), (x, 9 * k, 0.1))
     ]
-    polygons = np.arange(len(points)).reshape(-1, 3)
-    axis = axis_of(points, polygons)
-    sides = np.full(len(polygons), side, np.int32)
-    return replace(axis, radius=np.ones(len(points)), side=sides)
+    axis = axis_of(points, np.arange(len(points)).reshape(-1, 3))
+    return replace(axis, radius=np.ones(len(points)), side=np.full(len(lengths), side, np.int32))
 
 
 def test_outer_pieces_smaller_than_their_balls_go():
@@ -112,8 +110,7 @@ def test_inner_pieces_and_the_largest_stay():
     assert cut.without_shards(inner, 1.0) is inner
     mixed = replace(strips(30.0, 0.1, 0.1), side=np.array((2, 1, 2), np.int32))
     assert cut.without_shards(mixed, 1.0).theta.tolist() == [0.0, 1.0]
-    small = strips(0.1, 0.1)
-    assert cut.without_shards(small, 1.0).facets == 1
+    assert cut.without_shards(strips(0.1, 0.1), 1.0).facets == 1
 
 
 def test_balls_without_a_radius_are_no_reason_to_drop_a_piece():

@@ -8,8 +8,8 @@ from medial_axis.core.mid_surface.cut_out_plates import cut_out_plate
 from medial_axis.core.mid_surface.mid_surface import mid_surface
 from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.outward_faces import outward_shape
-from medial_axis.core.shape.shape import Shape
-from support import topology
+from support import resampled, topology
+from support.meshes import join, shape_of
 from support.thick_meshes import block
 from support.thin_solids import turned, union
 
@@ -20,20 +20,8 @@ FRAME = (*SIDES, ((0.3, 0, 0), (0.6, T / 2, T)), ((0.3, 0.4, 0), (0.6, 0.7, T)))
 AREA = 0.7 - 0.3 * (0.4 - T / 2)
 
 
-def shape_of(mesh):
-    points, triangles = mesh
-    return outward_shape(
-        Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
-    )
-
-
-def area_of(vertices, triangles):
-    a, b, c = vertices[triangles].transpose(1, 0, 2)
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-
-
 def sheets(mesh):
-    return mid_surface(shape_of(mesh), Settings(samples=4000), MidSurfaceSettings())
+    return mid_surface(outward_shape(shape_of(mesh)), Settings(samples=4000), MidSurfaceSettings())
 
 
 @pytest.mark.parametrize("scale", (1.0, 1e-3))
@@ -42,7 +30,7 @@ def test_a_bridge_beside_a_window_belongs_to_the_sheet(scale):
     found = sheets((points * scale, triangles))
     assert found.sheets == topology.components(found.triangles) == 1
     assert topology.euler(found.triangles) == 0
-    area = area_of(found.vertices, found.triangles)
+    area = resampled.area((found.vertices, found.triangles))
     assert area == pytest.approx(AREA * scale**2, rel=1e-5)
     np.testing.assert_allclose(found.of_vertices, T * scale, rtol=1e-4)
     assert found.share == pytest.approx(1.0, abs=1e-4) and len(found.part) < 10
@@ -50,10 +38,8 @@ def test_a_bridge_beside_a_window_belongs_to_the_sheet(scale):
 
 def test_plates_that_overlap_are_no_plate():
     """Their flat faces would count twice where they lie in each other: 1.4 in the place of 1.386."""
-    parts = [union(((x, 0, 0), (x + 1, 0.7, T))) for x in (0, 0.98)]
-    mesh = np.concatenate([p for p, _ in parts]), np.concatenate((parts[0][1], parts[1][1] + 8))
-    found = sheets(mesh)
-    assert 0.97 * 1.386 < area_of(found.vertices, found.triangles) < 1.387
+    found = sheets(join(*(union(((x, 0, 0), (x + 1, 0.7, T))) for x in (0, 0.98))))
+    assert 0.97 * 1.386 < resampled.area((found.vertices, found.triangles)) < 1.387
 
 
 def middle(mesh, area):
@@ -61,7 +47,7 @@ def middle(mesh, area):
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * area**0.5
     triangles = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
     found = CarriedSheets(corners, triangles, np.zeros(2, np.int32), np.full((2, 3), T))
-    return cut_out_plate(shape_of(mesh), found)
+    return cut_out_plate(outward_shape(shape_of(mesh)), found)
 
 
 def tapered(by):
@@ -81,9 +67,8 @@ def split():
     top = np.flatnonzero((points[triangles][:, :, 2] == points[:, 2].max()).all(axis=1))
     a, b = np.intersect1d(*triangles[top])
     new = len(points)
-    row = triangles[top[0]]
-    at = next(k for k in range(3) if {row[k], row[(k + 1) % 3]} == {a, b})
-    start, end, apex = row[at], row[(at + 1) % 3], row[(at + 2) % 3]
+    turns = (np.roll(triangles[top[0]], -k) for k in range(3))
+    start, end, apex = next(turn for turn in turns if {*turn[:2]} == {a, b})
     kept = np.delete(triangles, top[0], axis=0)
     pieces = [[start, new, apex], [new, end, apex], [end, new, start]]
     return np.vstack((points, points[[a, b]].mean(axis=0))), np.vstack((kept, pieces))
@@ -93,7 +78,8 @@ def split():
 def test_the_middle_of_a_plate(make):
     points, triangles = make()
     found = middle((points, triangles), 0.69)
-    assert area_of(found.vertices, found.triangles) == pytest.approx(0.7, rel=1e-5)
+    area = resampled.area((found.vertices, found.triangles))
+    assert area == pytest.approx(0.7, rel=1e-5)
     heights = found.vertices[found.triangles][:, :, 2]
     assert heights == pytest.approx(points[:, 2].min() + T / 2, abs=1e-9)
     np.testing.assert_allclose(found.at_corners, T, rtol=1e-9)

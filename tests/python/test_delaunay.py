@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, cKDTree
 from support import inputs, reference, shapes
 
 pytestmark = pytest.mark.oracle
@@ -12,16 +12,10 @@ pytestmark = pytest.mark.oracle
 @pytest.mark.parametrize(
     "kind, n",
     [
-        ("cube", 1000),
-        ("gauss", 3000),
-        ("cube", 20000),
-        ("ellipsoid", 5000),
-        ("shell", 10000),
-        ("torus", 20000),
-        ("knot", 20000),
-        ("graded", 2000),
+        ("cube", 1000), ("gauss", 3000), ("cube", 20000), ("ellipsoid", 5000), ("shell", 10000),
+        ("torus", 20000), ("knot", 20000), ("graded", 2000),
     ],
-)
+)  # fmt: skip
 def test_cells_equal_qhull(study, kind, n):
     points = inputs.generic(kind, n, 1)
     cells, _neighbors, _ = study.delaunay(points)
@@ -61,10 +55,8 @@ def test_neighbors_share_three_corners_and_know_each_other(study):
 
 def test_cells_fill_the_convex_hull(study):
     """The volumes add up: no overlap, no gap, also for exactly cospherical and coplanar samples."""
-    for points, volume in (
-        (inputs.grid((5, 6, 7)), 4.0 * 5 * 6),
-        (inputs.hollow((8, 8, 8)), 7.0**3),
-    ):
+    grids = (inputs.grid((5, 6, 7)), 4.0 * 5 * 6), (inputs.hollow((8, 8, 8)), 7.0**3)
+    for points, volume in grids:
         cells = study.delaunay(points)[0]
         cells = cells[(cells >= 0).all(axis=1)].astype(np.int64)
         grid, _ = reference.to_integers(points)
@@ -73,8 +65,6 @@ def test_cells_fill_the_convex_hull(study):
 
 
 def test_empty_spheres_of_20000_samples(study):
-    from scipy.spatial import cKDTree
-
     points = shapes.SHAPES["ellipsoid"].sample(20000, 3)
     cells, _, centres = study.delaunay(points)
     finite = (cells >= 0).all(axis=1)

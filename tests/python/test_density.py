@@ -114,18 +114,17 @@ def test_all_samples_where_there_are_few(analysed):
 
 
 def test_a_report_is_of_all_samples(monkeypatch):
-    shape = Shape(*icosphere(4))
-    whole = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
+    work = Shape(*icosphere(4)), Settings(sampling=SamplingMode.VERTICES)
+    whole = report_sampling(*work)
     CACHE.clear()
     monkeypatch.setattr(analysis, "LOOKED_AT", 100)
-    some = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
+    some = report_sampling(*work)
     assert len(some.chosen.samples.density.points) <= 100
     np.testing.assert_array_equal(some.epsilon, whole.epsilon)
     assert some.density.share == whole.density.share
 
 
 def test_samples_at_edges_do_not_make_the_others_dense():
-    points, far = np.array([(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (9.0, 0.0, 0.0)]), np.ones(3)
-    density = Density(points, far, far, edges=points[:1], finest=0.1, limit=0.5)
-    assert density.at_edge.tolist() == [True, False, False]
-    assert not density.dense_enough
+    points = np.array([(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (9.0, 0.0, 0.0)])
+    found = density([1, 1, 1], [1, 1, 1], points, points[:1], limit=0.5)
+    assert found.at_edge.tolist() == [True, False, False] and not found.dense_enough

@@ -8,8 +8,6 @@ from support.shape_meshes import MESHED
 
 pytestmark = pytest.mark.oracle
 
-FILES = ("rocker-arm.off", "hand_closed.obj")
-
 
 def assert_alike(mesh, coarse, fine):
     axes = [resampled.of_surface(mesh, count).axis for count in (coarse, fine)]
@@ -30,7 +28,7 @@ def test_the_axis_of_16000_samples_is_that_of_64000(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("file", FILES)
+@pytest.mark.parametrize("file", ["rocker-arm.off", "hand_closed.obj"])
 def test_real_meshes(data_file, file):
     assert_alike(meshes.read(data_file(file)), 4000, 16_000)
 

@@ -41,9 +41,8 @@ def test_a_moebius_strip_has_normals_all_round():
 
 
 def test_a_seam_has_the_normal_of_the_larger_part():
-    vertices = np.array(
-        [[0, 0, 0], [0, 1, 0], [3, 1, 0], [3, 0, 0], [0, 1, 1], [0, 0, 1], [9, 9, 9]], float
-    )
+    flat, upright = [[0, 0, 0], [0, 1, 0], [3, 1, 0], [3, 0, 0]], [[0, 1, 1], [0, 0, 1]]
+    vertices = np.array([*flat, *upright, [9, 9, 9]], float)
     corners = np.array([0, 3, 2, 1, 0, 1, 4, 5], np.int32)
     offsets = np.array([0, 4, 8], np.int32)
     for part in ([0, 1], [7, 2]):
@@ -54,9 +53,8 @@ def test_a_seam_has_the_normal_of_the_larger_part():
 
 
 def test_tangents_go_straight_through_a_fork():
-    vertices = np.array(
-        [[-2, 0, 0], [-1, 0, 0], [0, 0, 0], [1, 0.1, 0], [0, 1, 0], [5, 5, 5]], float
-    )
+    bar = [[-2, 0, 0], [-1, 0, 0], [0, 0, 0], [1, 0.1, 0]]
+    vertices = np.array([*bar, [0, 1, 0], [5, 5, 5]], float)
     wires = np.array([[0, 1], [1, 2], [2, 3], [4, 2]], np.int32)
     found = curve_tangents(vertices, wires)
     np.testing.assert_allclose(found[:2], np.tile([1.0, 0.0, 0.0], (2, 1)))

@@ -9,11 +9,7 @@ from pathlib import Path
 import pytest
 from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Switch
-from medial_axis.core.settings import (
-    LOOKS,
-    OPTIONS,
-    THICKNESS_OPTIONS,
-)
+from medial_axis.core.settings import LOOKS, OPTIONS, THICKNESS_OPTIONS
 from support.package import ROOT
 from test_layers import BRIDGE, CORE, MAY_IMPORT, MAY_INCLUDE
 
@@ -25,29 +21,13 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
 SOURCES = ("native", "blender_addon", "tests", "tools", "lab", "docs")
 STARTS = (
-    "lab/native",
-    "",
-    "native",
-    "native/medial",
-    "blender_addon",
-    "blender_addon/core",
-    "tests",
+    "lab/native", "", "native", "native/medial", "blender_addon", "blender_addon/core", "tests",
     "lab",
-)
+)  # fmt: skip
 TEXTS = {
-    ".py",
-    ".pyi",
-    ".h",
-    ".cpp",
-    ".txt",
-    ".cmake",
-    ".toml",
-    ".sh",
-    ".js",
-    ".yaml",
-    ".json",
+    ".py", ".pyi", ".h", ".cpp", ".txt", ".cmake", ".toml", ".sh", ".js", ".yaml", ".json",
     ".map",
-}
+}  # fmt: skip
 
 # Words that do not occur in the sources, each with its origin.
 FOREIGN = {
@@ -95,9 +75,7 @@ def files():
 def sources():
     """The text of all sources but this one, and the names of their files."""
     texts = [path for path in files() if path.suffix in TEXTS and path.name != "test_docs.py"]
-    return "\n".join(
-        [path.read_text(encoding="utf-8") for path in texts] + [p.name for p in files()]
-    )
+    return "\n".join([*(path.read_text("utf-8") for path in texts), *(p.name for p in files())])
 
 
 @pytest.fixture(scope="session")
@@ -110,11 +88,9 @@ def words(sources):
 @pytest.fixture(scope="session")
 def options(sources):
     """Every option of a command line in the sources, and those of the method."""
-    names = (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
-    made = {"--" + name.replace("_", "-") for name in names}
-    switches = [name for name, option in OPTIONS.items() if isinstance(option, Switch)]
-    made |= {"--no-" + name.replace("_", "-") for name in switches}
-    return made | set(OPTION.findall(sources))
+    names = ["--" + name for name in (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)]
+    names += ["--no-" + name for name, option in OPTIONS.items() if isinstance(option, Switch)]
+    return {name.replace("_", "-") for name in names} | set(OPTION.findall(sources))
 
 
 def looks_like_code(word):
@@ -175,10 +151,8 @@ UNITS = (ROOT / "native" / "medial", ROOT / "lab" / "native")
 
 def header_of(unit):
     """The header of a unit, in its room or among the public ones."""
-    places = (
-        *(folder / unit for folder in UNITS),
-        ROOT / "native/include/medial" / Path(unit).name,
-    )
+    public = ROOT / "native/include/medial" / Path(unit).name
+    places = (*(folder / unit for folder in UNITS), public)
     return next(path for place in places if (path := place.with_suffix(".h")).is_file())
 
 
@@ -227,14 +201,9 @@ def test_names_of_the_library_in_the_examples_are_there():
         for node in front.body
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
     )
-    blocks = [
-        block
-        for page in PAGES
-        for block in re.findall(
-            r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
-        )
-        if "import medial_axis" in block
-    ]
+    fenced = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+    blocks = [block for page in PAGES for block in fenced.findall(page.read_text(encoding="utf-8"))]
+    blocks = [block for block in blocks if "import medial_axis" in block]
     used = {name for block in blocks for name in re.findall(r"\bmedial_axis\.(\w+)", block)}
     assert len(used) > 3 and used <= set(offered)
 
@@ -242,21 +211,10 @@ def test_names_of_the_library_in_the_examples_are_there():
 # --- the stage pages
 
 STAGES = (
-    "stage_sampling",
-    "stage_scan",
-    "stage_delaunay",
-    "stage_inside",
-    "stage_tight_cocone",
-    "stage_selection",
-    "hierarchy",
-    "stage_even",
-    "stage_crisp",
-    "stage_skeleton",
-    "stage_thickness",
-    "stage_balls",
-    "stage_small_mesh",
-    "stage_mid_surface",
-)
+    "stage_sampling", "stage_scan", "stage_delaunay", "stage_inside", "stage_tight_cocone",
+    "stage_selection", "hierarchy", "stage_even", "stage_crisp", "stage_skeleton",
+    "stage_thickness", "stage_balls", "stage_small_mesh", "stage_mid_surface",
+)  # fmt: skip
 HEADINGS = ["What", "Code", "Options", "Quality", "Cost", "Source"]
 
 
@@ -285,12 +243,10 @@ def test_stage_pages_have_the_same_skeleton(stage):
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_code_of_a_stage_is_there(stage):
-    assert [path for path in code_of(stage) if not in_the_sources(path)] == []
-
-
-def in_the_sources(path):
     """As the docs name files: from a room's folder, or below the folder that the table's head names."""
-    return is_there(path) or (ROOT / "blender_addon" / "core" / "skeleton" / path).is_file()
+    skeleton = ROOT / "blender_addon" / "core" / "skeleton"
+    away = [path for path in code_of(stage) if not (skeleton / path).is_file()]
+    assert [path for path in away if not is_there(path)] == []
 
 
 def test_pages_of_the_method_name_every_room_of_the_native_core():

@@ -3,25 +3,23 @@
 
 from dataclasses import replace
 from functools import cache
-from types import SimpleNamespace
 
+import medial_axis
 import numpy as np
 import pytest
-from support import crisp_measures, crisp_solids, crossing_triangles, meshes
+from medial_axis.core.axis.levels import hierarchy_of
+from support import crisp_measures, crisp_solids, crossing_triangles, meshes, resampled
 from support.crisp_runs import Case
 from support.data import DATA
+from support.levels import betti_of_mesh
 
 FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
 # Shares of the diagonal: what the worst hundredth of the axis is missed by, and the mean error of vertices.
 CURVED = {
-    "cylinder": (1e-3, 5e-5),
-    "cone": (1e-3, 1e-6),
-    "plate": (1e-3, 1e-7),
-    "stadium": (1e-3, 5e-5),
-    "oblate": (1e-3, 2e-4),
-    "ellipsoid": (1e-3, 2e-4),
-}
+    "cylinder": (1e-3, 5e-5), "cone": (1e-3, 1e-6), "plate": (1e-3, 1e-7),
+    "stadium": (1e-3, 5e-5), "oblate": (1e-3, 2e-4), "ellipsoid": (1e-3, 2e-4),
+}  # fmt: skip
 REAL = ("spot_low.obj", "hand_closed.obj", "fandisk_large.off")
 
 
@@ -32,8 +30,6 @@ def made(name):
 
 @cache
 def of_file(name, mesh="even", **more):
-    import medial_axis
-
     path = DATA / name
     if not path.is_file():
         pytest.skip(f"{name} is not in the folder of real meshes")
@@ -56,15 +52,11 @@ def euler(axis):
 
 
 def area_of(level):
-    corners = level.vertices[level.face_vertices.reshape(-1, 3)]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return 0.5 * np.linalg.norm(across, axis=1).sum()
+    return resampled.area((level.vertices, level.face_vertices.reshape(-1, 3)))
 
 
 def test_two_edges_between_the_same_places_enclose_nothing():
     """Samples on common spheres leave such edges, as in a ball of 32 faces; in this one by its size and place."""
-    import medial_axis
-
     faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
     octahedron = np.concatenate((np.eye(3), -np.eye(3))), np.array(faces, np.int32)
     corners, triangles = meshes.split(octahedron)
@@ -163,8 +155,6 @@ def test_a_triangle_has_the_values_of_a_facet_that_it_stands_for():
 
 
 def test_points_without_faces_have_even_triangles_at_the_samples():
-    import medial_axis
-
     rng = np.random.default_rng(3)
     points = rng.normal(size=(3000, 3))
     points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
@@ -181,12 +171,8 @@ def test_bytes_do_not_depend_on_the_threads(medial):
     samples, axes = computation.chosen.samples, []
     solid = samples.solid
     for threads in (1, 2, 5):
-        analysis = medial.MedialAnalysis(
-            samples.points,
-            triangles=solid.shape.triangles,
-            vertices=solid.shape.points,
-            threads=threads,
-        )
+        mesh = {"triangles": solid.shape.triangles, "vertices": solid.shape.points}
+        analysis = medial.MedialAnalysis(samples.points, **mesh, threads=threads)
         faces = solid.of_module(medial, *solid.options(computation.settings))
         hierarchy = analysis.hierarchy(faces=faces, places=False)
         even = hierarchy.even(spacings=1.0, crisp=True)
@@ -201,8 +187,6 @@ def test_bytes_do_not_depend_on_the_threads(medial):
 @pytest.fixture(scope="module")
 def hand(medial):
     """Return the hierarchies of a hand: of the Voronoi diagram, and of its even mesh."""
-    from medial_axis.core.axis.levels import hierarchy_of
-
     found = of_file(REAL[1])
     hierarchy = hierarchy_of(found.chosen.samples, found.settings, None)
     return hierarchy, hierarchy.even(spacings=1.0, round_limbs=True, crisp=True)
@@ -226,12 +210,7 @@ def test_levels_of_a_mesh_are_nested_and_keep_the_topology(hand, name):
         threshold = float(np.quantile(values, share))
         level = even.extract(**{name: threshold})
         assert np.all(values[level.facet_of] > threshold) and level.betti == hierarchy.betti
-        axis = SimpleNamespace(
-            vertices=level.vertices,
-            edges=level.wires,
-            face_vertices=level.face_vertices,
-        )
-        assert euler(axis) == 1 and not len(level.points)
+        assert betti_of_mesh(level)[1] == 1 and not len(level.points)
         triangles = level.face_vertices.reshape(-1, 3)
         assert len(crossing_triangles.crossing_pairs(level.vertices, triangles)) == 0
         before, area = area, area_of(level)
@@ -261,8 +240,6 @@ def test_a_level_does_not_depend_on_those_before(hand):
 
 def test_new_rims_are_no_staircases():
     """Rims of triangles that are left out would turn by some 50 degrees at each vertex."""
-    import medial_axis
-
     found = of_file(REAL[1])
     eroded = medial_axis.extract(found, erode=0.1)
     assert 0.5 * found.axis.facets < eroded.facets < 0.95 * found.axis.facets

@@ -16,6 +16,7 @@ from medial_axis.core.errors import ExportError
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
 from support.inputs import rotation
+from support.measure import polygons
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 
@@ -91,13 +92,8 @@ def curve_axis():
 
 
 EMPTY = axis_of([], [])
-AXES = {
-    "sheets": fan_of_sheets(),
-    "grid": grid_of_quads(),
-    "clean": clean_axis(),
-    "curve": curve_axis(),
-    "empty": EMPTY,
-}
+AXES = {"sheets": fan_of_sheets(), "grid": grid_of_quads(), "clean": clean_axis()}
+AXES |= {"curve": curve_axis(), "empty": EMPTY}
 LEVEL_FIELDS = ("sheet", "erosion", "limb", "place")
 
 
@@ -118,17 +114,14 @@ def read_ma(path):
         rows = [rest[at : at + width + 1] for at in range(0, count * (width + 1), width + 1)]
         rest = rest[count * (width + 1) :]
         assert all(row[0] == letter for row in rows)
-        sections.append(
-            np.array([[kind(x) for x in row[1:]] for row in rows], kind).reshape(count, width)
-        )
+        numbers = [[kind(x) for x in row[1:]] for row in rows]
+        sections.append(np.array(numbers, kind).reshape(count, width))
     assert rest == []
     return sections
 
 
 def polygons_of(axis):
-    return (
-        np.split(axis.face_vertices, axis.face_offsets[1:-1]) if len(axis.face_offsets) > 1 else []
-    )
+    return polygons(axis) if len(axis.face_offsets) > 1 else []
 
 
 def balls(axis):
@@ -207,9 +200,8 @@ def test_ma_triangles_cover_each_polygon(axis, tmp_path):
         assert set(faces[own].ravel()) == set(polygon)
         fan = np.column_stack([np.full(len(polygon) - 2, polygon[0]), polygon[1:-1], polygon[2:]])
         whole = area_vectors(vertices[:, :3], fan).sum(axis=0)
-        assert np.allclose(
-            areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * np.linalg.norm(whole)
-        )
+        size = np.linalg.norm(whole)
+        assert np.allclose(areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * size)
         assert (areas[own] @ whole > 0).all()  # all turn as the polygon does, none is empty
         start = own.stop
 
@@ -223,22 +215,15 @@ def test_ma_is_plain_ascii_with_lf_and_no_comments(tmp_path):
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
 def test_triangles_of_polygons_with_straight_corners_have_area(tmp_path, scale):
     """Corners on straight sides: a fan from the first corner would give triangles without area."""
-    triangle = np.array(
-        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [0, 1, 0]]
-    )
-    base_only = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 4, 0]])
-    turns = [
-        np.roll(shape, turn, axis=0)
-        for shape in (triangle, base_only)
-        for turn in range(len(shape))
-    ]
-    vertices, polygons = np.concatenate(turns), []
-    for turn in turns:
-        first = sum(len(p) for p in polygons)
-        polygons.append(range(first, first + len(turn)))
-    points, _, faces = read_ma(export_axis(axis_of(vertices * scale, polygons), tmp_path / "a.ma"))
+    base = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]]
+    triangle, base_only = [*base, [2, 1, 0], [1, 2, 0], [0, 3, 0], [0, 1, 0]], [*base, [1, 4, 0]]
+    shapes = (triangle, base_only)
+    turns = [np.roll(shape, turn, axis=0) for shape in shapes for turn in range(len(shape))]
+    vertices = np.concatenate(turns)
+    corners = np.split(np.arange(len(vertices)), np.cumsum([len(turn) for turn in turns])[:-1])
+    points, _, faces = read_ma(export_axis(axis_of(vertices * scale, corners), tmp_path / "a.ma"))
     areas = area_vectors(points[:, :3], faces)[:, 2]
-    assert len(faces) == len(vertices) - 2 * len(polygons)
+    assert len(faces) == len(vertices) - 2 * len(turns)
     assert areas.min() > 0.4 * scale**2
 
 
@@ -260,9 +245,8 @@ def test_ply_holds_polygons_and_all_attributes(axis, tmp_path):
 
 def test_ply_of_a_face_with_more_than_255_corners(tmp_path):
     angles = np.linspace(0, 2 * np.pi, 300, endpoint=False)
-    wheel = axis_of(
-        np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]), [range(300), range(3)]
-    )
+    points = np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    wheel = axis_of(points, [range(300), range(3)])
     _, faces, _ = read_ply(export_axis(wheel, tmp_path / "a.ply"))
     assert [len(face[0]) for face in faces] == [300, 3]
     _, _, triangles = read_ma(export_axis(wheel, tmp_path / "a.ma"))
@@ -275,7 +259,7 @@ def test_obj_holds_polygons(axis, tmp_path):
     faces = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("f ")]
     edges = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("l ")]
     alone = [int(line.split()[1]) - 1 for line in lines if line.startswith("p ")]
-    comments = 0 if axis.level is None else 1
+    comments = axis.level is not None
     assert len(lines) == comments + len(vertices) + len(faces) + len(edges) + len(alone)
     assert (edges, alone) == (axis.edges.tolist(), lone_vertices(axis))
     assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
@@ -402,15 +386,16 @@ def test_transform_that_makes_no_balls_is_refused(matrix, words, tmp_path):
 # --- whole or not at all
 
 
+def assert_one_sentence(error):
+    """One that ends without a full stop."""
+    text = str(error.value)
+    assert "\n" not in text and ". " not in text and not text.endswith(".")
+
+
 def assert_unwritten(folder, target, old):
     """`target` still holds `old` (None: is absent) and nothing else lies in `folder`."""
     assert sorted(folder.iterdir()) == ([target] if old is not None else [])
     assert old is None or target.read_bytes() == old
-
-
-def one_sentence(error):
-    text = str(error.value)
-    return "\n" not in text and ". " not in text and not text.endswith(".")
 
 
 @pytest.fixture(params=[b"precious", None], ids=["over old", "new"])
@@ -442,7 +427,7 @@ def test_full_disk(target, old, tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         signal.signal(signal.SIGXFSZ, handler)
-    assert one_sentence(error)
+    assert_one_sentence(error)
     assert_unwritten(tmp_path, target, old)
 
 
@@ -463,7 +448,7 @@ def test_read_only_folder(extension, old):
                 export_axis(AXES["grid"], target)
         finally:
             os.seteuid(user)
-        assert one_sentence(error)
+        assert_one_sentence(error)
         assert_unwritten(folder, target, old)
     finally:
         folder.chmod(0o755)

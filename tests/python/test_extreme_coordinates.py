@@ -55,14 +55,12 @@ def test_a_lattice_in_the_last_bits_of_an_offset(medial):
 @pytest.mark.parametrize("offset", [2.0**30, -(2.0**40), 1e9])
 def test_an_offset_that_loses_nothing(medial, offset):
     """Rounded there first, so that both are the same points."""
-    moved = ellipsoid() + np.array([offset, 0.0, 2 * offset])
-    points = moved - (offset, 0.0, 2 * offset)
-    one, other = axis_of(medial, points)[1], axis_of(medial, moved)[1]
+    away = np.array([offset, 0.0, 2 * offset])
+    moved = ellipsoid() + away
+    one, other = axis_of(medial, moved - away)[1], axis_of(medial, moved)[1]
     np.testing.assert_array_equal(one.generators, other.generators)
     np.testing.assert_allclose(other.radius, one.radius, rtol=1e-12)
-    np.testing.assert_allclose(
-        other.vertices - (offset, 0.0, 2 * offset), one.vertices, atol=1e-15 * abs(offset)
-    )
+    np.testing.assert_allclose(other.vertices - away, one.vertices, atol=1e-15 * abs(offset))
 
 
 @pytest.mark.parametrize("tiny", [1e-60, 1e-80, 1e-100, 1e-150, 1e-200, 1e-300, 5e-324])

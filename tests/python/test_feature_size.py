@@ -11,9 +11,8 @@ from support.shapes import SHAPES
 
 pytestmark = pytest.mark.oracle
 
-THINNING = (
-    1 / 32
-)  # of vertices closer together than that, in radii of their balls, some are left out
+# Some vertices are left out that are closer together than that, in radii of their balls.
+THINNING = 1 / 32
 CLOUD = np.random.default_rng(0).random((60, 3))
 
 
@@ -72,13 +71,9 @@ def test_vertices_of_unbounded_facets_count(study):
 # Largest relative error at 2,000 and 8,000 samples; measured, and a quarter more. The walls of the shell are
 # nearly as thin as the samples of 2,000 are apart.
 ERRORS = {
-    "ellipsoid": (0.18, 0.13),
-    "oblate": (0.13, 0.077),
-    "slab": (0.15, 0.037),
-    "torus": (0.061, 0.042),
-    "capsule": (0.034, 0.042),
-    "shell": (0.61, 0.2),
-}
+    "ellipsoid": (0.18, 0.13), "oblate": (0.13, 0.077), "slab": (0.15, 0.037),
+    "torus": (0.061, 0.042), "capsule": (0.034, 0.042), "shell": (0.61, 0.2),
+}  # fmt: skip
 
 
 def exact_feature_size(name, points):
@@ -135,16 +130,11 @@ def test_thresholds_out_of_range(medial, thresholds):
 @pytest.mark.parametrize(
     "rows",
     [
-        np.array([0, 60], np.int32),
-        np.array([-1], np.int32),
-        np.array([0, 1]),
-        np.array([0.5]),
-        np.zeros((1, 2), np.int32),
-        np.arange(8, dtype=np.int32)[::2],
-        [0, 1],
+        np.array([0, 60], np.int32), np.array([-1], np.int32), np.array([0, 1]), np.array([0.5]),
+        np.zeros((1, 2), np.int32), np.arange(8, dtype=np.int32)[::2], [0, 1],
     ],
     ids=["beyond", "negative", "int64", "float", "two axes", "strided", "list"],
-)
+)  # fmt: skip
 def test_rows_that_are_not_valid(medial, rows):
     with pytest.raises(medial.InvalidInputError) as error:
         analysis_of(medial, CLOUD).feature_size(rows=rows)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fill: hollow pipes, ducts, cups and bottles have the line of their outer faces, with either radius."""
 
+import itertools
 import json
 
 import numpy as np
@@ -12,31 +13,21 @@ from medial_axis.core.settings import Fill, Settings, SkeletonSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.fill import filled
-from support.meshes import write_off
+from support.meshes import shape_of, write_off
 from support.thick_meshes import block, lathe, shell
 
 BEND, OUTSIDE, INSIDE = 5.0, 1.0, 0.8
-
-
-def shape_of(mesh):
-    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
 
 
 def bent_pipe(turn=np.pi / 2, rings=40, around=32):
     """A pipe with flat ends along an arc round Z."""
     along, round_it = np.linspace(0.0, turn, rings), 2 * np.pi * np.arange(around) / around
     rows = np.arange(2 * rings * around).reshape(2, rings, around)
-    points = [
-        np.column_stack(
-            (
-                (BEND + radius * np.cos(round_it)) * np.cos(angle),
-                (BEND + radius * np.cos(round_it)) * np.sin(angle),
-                radius * np.sin(round_it),
-            )
-        )
-        for radius in (OUTSIDE, INSIDE)
-        for angle in along
-    ]
+    points = []
+    for radius, angle in itertools.product((OUTSIDE, INSIDE), along):
+        away = BEND + radius * np.cos(round_it)
+        flat = away * np.cos(angle), away * np.sin(angle)
+        points.append(np.column_stack((*flat, radius * np.sin(round_it))))
     after = np.roll(rows, -1, axis=2)
     quads = [
         (rows[0, :-1], rows[0, 1:], after[0, 1:], after[0, :-1]),
@@ -77,17 +68,9 @@ def duct():
 
 CUP = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.9, 3.0), (0.9, 0.1), (0.0, 0.1)]
 BOTTLE = [
-    (0, 0),
-    (1, 0),
-    (1, 2),
-    (0.4, 3),
-    (0.4, 4),
-    (0.3, 4),
-    (0.3, 3),
-    (0.9, 2),
-    (0.9, 0.1),
+    (0, 0), (1, 0), (1, 2), (0.4, 3), (0.4, 4), (0.3, 4), (0.3, 3), (0.9, 2), (0.9, 0.1),
     (0, 0.1),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("profile", [CUP, BOTTLE], ids=["cup", "bottle"])
@@ -105,9 +88,8 @@ def test_bores_and_cavities_are_filled():
         assert shape.solid_betti == (1, loops, 0 if loops else 1)
         found = filled(shape)
         assert found.shape.solid_betti == (1, 0, 0) and 0.3 < found.share < 0.5
-    assert filled(shape_of(duct())).shape.volume == pytest.approx(
-        7 * 7 * (33 + 14.5 - 0.0), rel=0.02
-    )
+    volume = 7 * 7 * (33 + 14.5)
+    assert filled(shape_of(duct())).shape.volume == pytest.approx(volume, rel=0.02)
 
 
 def test_a_bent_pipe_has_its_arc_with_either_radius():

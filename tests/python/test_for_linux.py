@@ -5,18 +5,11 @@ import platform
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.packaging import (  # noqa: E402 - found through the line above
-    check_module,
-    debian,
-    paths,
-)
+from tools.packaging import check_module, debian, paths
 
 APT = """#!/bin/sh
 case "$*" in
@@ -29,13 +22,12 @@ esac
 @pytest.fixture
 def asked_of_apt(tmp_path, monkeypatch):
     """The words that a stand-in for apt-get was given, line by line."""
-    folder = tmp_path / "bin"
-    folder.mkdir()
-    (folder / "apt-get").write_text(APT)
-    (folder / "apt-get").chmod(0o755)
-    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+    program = tmp_path / "apt-get"
+    program.write_text(APT)
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     monkeypatch.setenv("APT_LOG", str(tmp_path / "log"))
-    monkeypatch.setattr(debian, "KEYRING", folder / "apt-get")
+    monkeypatch.setattr(debian, "KEYRING", program)
     return lambda: (tmp_path / "log").read_text().splitlines()
 
 

@@ -4,21 +4,11 @@
 import hashlib
 import struct
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.packaging import (  # noqa: E402 - found through the line above
-    check_module,
-    licences,
-    macho,
-    paths,
-    zig,
-)
+from tools.packaging import check_module, licences, macho, paths, zig
 
 SYSTEM = "/usr/lib/libSystem.B.dylib"
 NAME = "_medial.cpython-311-darwin.so"
@@ -34,15 +24,13 @@ def image(
     places=(0, 16384),
 ):
     """A library for one processor, without code: its commands, its names, a signature of pages of 4096 bytes, and
-    segments at these places in memory.
-    """
+    segments at these places in memory."""
     symbols = [(name, 0x01) for name in undefined] + [(name, 0x0F) for name in exported]
     symbols += [("_hidden", 0x1F), ("_local", 0x0E), ("_debug", 0x64)]
     commands = [library_command(name) for name in libraries]
     commands.append(struct.pack("<6I", 0x32, 24, 1, system[0] << 16 | system[1] << 8, 0, 0))
-    commands += [
-        struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]) for at in places
-    ]
+    for at in places:
+        commands.append(struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]))
     size = sum(map(len, commands)) + 24 + 16 * signed
     table, names = b"", b"\0"
     for name, kind in symbols:
@@ -67,9 +55,8 @@ def library_command(name):
 def signature(whole):
     pages = [whole[at : at + 4096] for at in range(0, len(whole), 4096)]
     hashes = b"".join(hashlib.sha256(page).digest() for page in pages)
-    directory = struct.pack(
-        ">9I", 0xFADE0C02, 44 + len(hashes), 0, 0, 44, 0, 0, len(pages), len(whole)
-    )
+    places = (44 + len(hashes), 0, 0, 44, 0, 0, len(pages), len(whole))
+    directory = struct.pack(">9I", 0xFADE0C02, *places)
     directory += struct.pack("4BI", 32, 2, 0, 12, 0) + hashes
     return struct.pack(">5I", 0xFADE0CC0, 20 + len(directory), 1, 0, 20) + directory
 
@@ -141,10 +128,8 @@ def built(tmp_path, monkeypatch):
     ],
 )
 def test_module_for_macs_needs_python_and_macos_alone(built, fault, told):
-    module = built / NAME
-    module.write_bytes(
-        macho.join([image(), image(**fault)]) if fault.get("processor") else image(**fault)
-    )
+    module, own = built / NAME, image(**fault)
+    module.write_bytes(macho.join([image(), own]) if "processor" in fault else own)
     if told is None:
         text = check_module.check(module)
         assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]

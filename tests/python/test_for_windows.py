@@ -4,23 +4,13 @@
 import re
 import struct
 import subprocess
-import sys
 import sysconfig
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.packaging import (  # noqa: E402 - found through the line above
-    check_module,
-    headers_for_windows,
-    licences,
-    paths,
-    pe,
-)
-from tools.packaging.terminal import Failure  # noqa: E402
+from tools.packaging import check_module, headers_for_windows, licences, paths, pe
+from tools.packaging.terminal import Failure
 
 START, PLACE = 0x1000, 0x400  # of the only section, in memory and in the file
 NEEDED = ("python311.dll", "KERNEL32.dll")
@@ -111,18 +101,13 @@ EXPORTING = (
 )
 
 
-@pytest.fixture
-def exporting(tmp_path):
-    """A library for this system with some names as Python's have."""
+def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, monkeypatch):
+    """Made from a library for this system with some names as Python's have."""
     (tmp_path / "a.cpp").write_text(EXPORTING)
     made = tmp_path / "libpython.so"
     subprocess.run(["g++", "-shared", "-fPIC", "-o", made, tmp_path / "a.cpp"], check=True)
-    return made
-
-
-def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, exporting, monkeypatch):
     monkeypatch.setattr(headers_for_windows, "DLLTOOL", "true")
-    headers_for_windows.make_import_library(exporting, "python399", tmp_path)
+    headers_for_windows.make_import_library(made, "python399", tmp_path)
     text = (tmp_path / "python399.def").read_text().splitlines()
     assert text[:2] == ["LIBRARY python399.dll", "EXPORTS"]
     assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]

@@ -17,19 +17,10 @@ from medial_axis.core.shape.shape import Shape
 from medial_axis.core.united import united
 from support.meshes import capsule, join, torus
 
-TEE = ((-2, 0, 0), (2, 0, 0), 0.4), ((0, 0, 0), (0, 1.6, 0), 0.4)
-
-
-def tee():
-    """A bar with a branch, which draws the fork of the wires off the line of the bar."""
-    return join(*(capsule(*one) for one in TEE))
-
-
-def ring_with_a_tail():
-    return join(torus(), capsule((1, 0, 0), (2.6, 0, 0), 0.3))
-
-
-SOLIDS = {"tee": (tee, (1, 0), 3), "ring": (ring_with_a_tail, (1, 1), 1)}
+# A bar with a branch, which draws the fork of the wires off the line of the bar.
+TEE = join(capsule((-2, 0, 0), (2, 0, 0), 0.4), capsule((0, 0, 0), (0, 1.6, 0), 0.4))
+RING_WITH_A_TAIL = join(torus(), capsule((1, 0, 0), (2.6, 0, 0), 0.3))
+SOLIDS = {"tee": (TEE, (1, 0), 3), "ring": (RING_WITH_A_TAIL, (1, 1), 1)}
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +28,8 @@ def curves():
     """{solid: (curve along the wires, smooth curve, distances from the surface, whether places are inside)}."""
     found = {}
     for name, (solid, *_) in SOLIDS.items():
-        points, triangles = (np.asarray(a) for a in solid())
         settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=4_000, seed=1)
-        computation = compute_axis(Shape(points.astype(float), triangles), settings)
+        computation = compute_axis(Shape(*solid), settings)
         asked = {}
 
         def spy(axis, depth, inside, asked=asked):

@@ -3,6 +3,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import medial_axis
 import numpy as np
@@ -10,8 +11,9 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.axis.axis_warnings import axis_warnings
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
+from medial_axis.core.axis.known_box import _CORNERS, _TRIANGLES
 from medial_axis.core.axis.levels import hierarchy_of
-from medial_axis.core.axis.topology import betti_words
+from medial_axis.core.axis.topology import _why, betti_words
 from medial_axis.core.machine.cache import CACHE, bytes_of
 from medial_axis.core.samples.levels import Levels
 from medial_axis.core.settings import (
@@ -25,7 +27,8 @@ from medial_axis.core.settings import (
     applies_to_form,
 )
 from medial_axis.core.shape.shape import Shape
-from support.meshes import icosphere, torus
+from support.meshes import flip, icosphere, join, moved, torus
+from support.messy import soup
 from support.same_axis import same_axis
 
 NONE = np.zeros((0, 3), np.int32)
@@ -33,24 +36,11 @@ NONE = np.zeros((0, 3), np.int32)
 
 def mesh_of(*parts):
     """One shape of several meshes."""
-    offsets = np.cumsum([0, *(len(points) for points, _ in parts)])
-    points = np.concatenate([np.asarray(points, float) for points, _ in parts])
-    triangles = [np.asarray(t, np.int32) + int(o) for (_, t), o in zip(parts, offsets)]
-    return Shape(points, np.concatenate(triangles).astype(np.int32))
-
-
-def moved(mesh, x, size=1.0):
-    return np.asarray(mesh[0], float) * size + (x, 0, 0), mesh[1]
-
-
-def turned(mesh):
-    return mesh[0], np.asarray(mesh[1])[:, ::-1]
+    return Shape(*join(*parts))
 
 
 def box(x=0.0, size=(1.0, 1.0, 1.0)):
-    from medial_axis.core.axis.known_box import _CORNERS, _TRIANGLES
-
-    return _CORNERS * size + (x, 0, 0), _TRIANGLES
+    return moved((_CORNERS, _TRIANGLES), (x, 0, 0), size)
 
 
 def computed(shape, **options):
@@ -64,7 +54,7 @@ SHAPES = {  # pieces, loops and cavities of the solid, and whether its faces say
     "ball": (mesh_of(BALL), (1, 0, 0), True),
     "torus": (mesh_of(TORUS), (1, 1, 0), True),
     "two boxes": (mesh_of(box(), box(3.0)), (2, 0, 0), True),
-    "shell": (mesh_of(BALL, turned(moved(BALL, 0.0, 0.5))), (1, 0, 1), True),
+    "shell": (mesh_of(BALL, flip(moved(BALL, scale=0.5))), (1, 0, 1), True),
     "boxes that overlap": (mesh_of(box(), box(0.53, (1.0, 0.8, 0.7))), (1, 0, 0), False),
 }
 
@@ -106,13 +96,12 @@ def test_betti_numbers_by_faces(medial, name):
     expected = betti if agrees else (2, 0, 0)
     assert medial.solid_betti(shape.points, shape.triangles) == expected
     order = np.random.default_rng(0).permutation(len(shape.triangles))
-    corners = shape.points[shape.triangles[order]].reshape(-1, 3)  # every face alone
-    alone = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-    assert medial.solid_betti(corners, alone) == expected
+    alone = soup((shape.points, shape.triangles[order]))
+    assert medial.solid_betti(*alone) == expected
 
 
 def test_no_betti_numbers_by_faces_that_bound_nothing(medial):
-    points, triangles = np.asarray(BALL[0], float), np.asarray(BALL[1], np.int32)
+    points, triangles = BALL
     assert medial.solid_betti(points, triangles[1:]) is None  # open
     assert medial.solid_betti(points, NONE) is None
     both = np.concatenate([triangles, triangles[:, ::-1]])
@@ -245,8 +234,8 @@ def test_where_crisp_matters(chosen, possible, of_faces):
 
 @pytest.mark.parametrize("form", [Form.CLEAN, Form.CURVE])
 def test_normals_that_decide_leave_nothing_crisp(form):
-    points, faces = (np.asarray(x) for x in BALL)
-    shape = Shape(points * (3.0, 2.0, 1.0), faces.astype(np.int32), points * (1 / 3, 1 / 2, 1))
+    points, faces = BALL
+    shape = Shape(points * (3.0, 2.0, 1.0), faces, points * (1 / 3, 1 / 2, 1))
     settings = Settings(form=form, sides=SidesFrom.NORMALS, sampling=SamplingMode.VERTICES)
     on, off = (compute_axis(shape, replace(settings, crisp=x)).axis for x in (True, False))
     assert same_axis(on, off) and not on.level.place.any()
@@ -278,7 +267,7 @@ def test_many_refused_places_are_a_warning(share, warned):
 @pytest.mark.parametrize("name", ["sharp_angle", "smooth"])
 def test_vertices_are_computed_again_for_other_faces(name):
     """Crisp places of vertices depend on what the faces are; each computation has its own."""
-    stretched = Shape(np.asarray(BALL[0]) * (3.0, 2.0, 1.0), np.asarray(BALL[1], np.int32))
+    stretched = Shape(*moved(BALL, scale=(3.0, 2.0, 1.0)))
     others = {"sharp_angle": 0.05, "smooth": False}
     settings = Settings(sampling=SamplingMode.VERTICES, sides=SidesFrom.SURFACE)
     changed = replace(settings, **{name: others[name]})
@@ -294,7 +283,7 @@ def test_vertices_are_computed_again_for_other_faces(name):
 
 def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    shape = mesh_of(moved(TORUS, 0.0))
+    shape = mesh_of(TORUS)
     np.savez("ring.npz", points=shape.points, triangles=shape.triangles)
     words = ["ring.npz", "ring_axis.npz", "--sampling", "surface", "--samples", "4000", "--json"]
     reports = {}
@@ -317,27 +306,18 @@ def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
 
 
 def test_an_axis_of_as_many_pieces_as_the_faces_is_not_torn():
-    from types import SimpleNamespace
-
-    from medial_axis.core.axis.topology import _why
-
     samples = SimpleNamespace(buried=0, solid=None)
     assert _why((1, 0, 0), (1, 1, 0), samples).startswith("walls or gaps are thinner")
     assert _why((2, 0, 0), (1, 0, 0), samples).startswith("some parts are thinner")
 
 
 def test_a_single_body_is_not_said_to_overlap():
-    from types import SimpleNamespace
-
-    from medial_axis.core.axis.topology import _why
-
-    samples = SimpleNamespace(
-        buried=3, solid=SimpleNamespace(shape=SimpleNamespace(is_folded=True, crossing=[]))
-    )
+    shape = SimpleNamespace(is_folded=True, crossing=[])
+    samples = SimpleNamespace(buried=3, solid=SimpleNamespace(shape=shape))
     assert _why((1, 3, 0), (1, 0, 0), samples).startswith("faces fold back on each other")
-    samples.solid.shape.is_folded = False
+    shape.is_folded = False
     assert _why((1, 3, 0), (1, 0, 0), samples).startswith("walls or gaps are thinner")
     assert _why((1, 3, 0), (2, 0, 0), samples) == "its parts overlap"
     assert _why((3, 0, 0), (2, 0, 0), samples).startswith("its parts overlap, and some")
-    samples.solid.shape.crossing = [(0, 1)]
+    shape.crossing = [(0, 1)]
     assert _why((1, 3, 0), (1, 0, 0), samples) == "faces pass through each other"

@@ -40,17 +40,10 @@ def random_points(rng):
     if kind == 8:  # wild sizes
         return rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-12, 12, (n, 1))
     if kind == 9:  # nearly flat, nearly straight
-        return rng.normal(size=(n, 3)) * (
-            1.0,
-            10.0 ** rng.uniform(-15, 0),
-            10.0 ** rng.uniform(-15, 0),
-        )
+        return rng.normal(size=(n, 3)) * (1.0, *10.0 ** rng.uniform(-15, 0, 2))
     if kind == 10:  # a grid far away, rounded
-        return (
-            (rng.integers(0, 3, (n, 3)) * 0.1 + 1e6 * rng.integers(-1, 2))
-            .astype(np.float32)
-            .astype(float)
-        )
+        grid = rng.integers(0, 3, (n, 3)) * 0.1 + 1e6 * rng.integers(-1, 2)
+        return grid.astype(np.float32).astype(float)
     points = rng.random((n, 3))  # clusters one rounding apart
     return points[rng.integers(0, 4, n)] + rng.integers(0, 3, (n, 3)) * np.spacing(1.0)
 
@@ -62,17 +55,12 @@ def spans_volume(points):
     return np.linalg.matrix_rank(points - points[0]) == 3
 
 
-def random_triangles(rng, n):
-    return rng.integers(0, n, (int(rng.integers(0, 2 * n)), 3)).astype(np.int32)
-
-
 def random_sides(medial, rng, points, seed):
     """The source of inside and outside: every source in turn."""
     if seed % 4 == 0:
-        triangles = random_triangles(rng, len(points))
-        is_open = (
-            medial.open_edges(points, triangles) > 0
-        )  # else there may be no triangle of any area
+        n = len(points)
+        triangles = rng.integers(0, n, (int(rng.integers(0, 2 * n)), 3)).astype(np.int32)
+        is_open = medial.open_edges(points, triangles) > 0  # else perhaps no triangle has an area
         sides = medial.SidesFrom.SURFACE if is_open else medial.SidesFrom.AUTOMATIC
         return {"triangles": triangles, "sides": sides}
     if seed % 4 == 1:
@@ -87,10 +75,9 @@ def test_small_inputs(medial, batch):
         rng = np.random.default_rng(seed)
         points = random_points(rng)
         try:
-            options = random_sides(medial, rng, points, seed)
-            analysis = medial.MedialAnalysis(
-                points, **options, bounding_sphere=seed % 5 == 0, threads=1 + seed % 2
-            )
+            options = {"bounding_sphere": seed % 5 == 0, "threads": 1 + seed % 2}
+            options |= random_sides(medial, rng, points, seed)
+            analysis = medial.MedialAnalysis(points, **options)
         except medial.DegenerateInputError:
             degenerate += 1
             assert spans_volume(points) is not True, seed
@@ -106,11 +93,8 @@ def assert_sound(medial, analysis, points, rng, seed):
     assert np.isin(edges, analysis.samples).all(), seed
     for name in ("theta", "rho", "theta_both", "rho_both"):
         assert np.isfinite(getattr(analysis, name)).all(), (seed, name)
-    thresholds = {
-        "theta": rng.uniform(0, 1.0),
-        "rho": rng.uniform(0, 10),
-        "limit_set": bool(seed % 2),
-    }
+    thresholds = {"theta": rng.uniform(0, 1.0), "rho": rng.uniform(0, 10)}
+    thresholds["limit_set"] = bool(seed % 2)
     mesh, chosen = analysis.extract(**thresholds), analysis.select(**thresholds)
     assert len(mesh.generators) + mesh.unbounded + mesh.zero_area == len(chosen), seed
     try:
@@ -133,13 +117,11 @@ def random_cloud(rng):
     if kind == 3:  # noise
         return points + rng.normal(size=points.shape) * 10.0 ** rng.uniform(-4, 0)
     if kind == 4:  # two far clusters, one of them small
-        return np.concatenate(
-            (points, points * 10.0 ** rng.uniform(-6, 0) + 10.0 ** rng.uniform(0, 8))
-        )
+        far = points * 10.0 ** rng.uniform(-6, 0) + 10.0 ** rng.uniform(0, 8)
+        return np.concatenate((points, far))
     if kind == 5:  # outliers, and rows twice
-        return np.concatenate(
-            (points, rng.normal(size=(9, 3)) * 10.0 ** rng.uniform(-1, 3), points[:9])
-        )
+        far = rng.normal(size=(9, 3)) * 10.0 ** rng.uniform(-1, 3)
+        return np.concatenate((points, far, points[:9]))
     if kind == 6:  # coplanar layers
         return np.column_stack((points[:, :2], np.round(points[:, 2] * 2)))
     return points * 10.0 ** rng.uniform(-45, 45)  # tiny and huge

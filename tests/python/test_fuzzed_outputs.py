@@ -5,7 +5,6 @@ Names are relative, absolute, links, hard links and detours; outputs are new fil
 """
 
 import contextlib
-import hashlib
 import io
 import os
 import random
@@ -17,7 +16,6 @@ from support.meshes import box, write_off
 
 from tests.support.fuzz import repeats
 
-COMMANDS = {"axis": [], "thickness": ["thickness"], "skeleton": ["skeleton"], "balls": ["balls"]}
 KINDS = {
     "axis": ("ply", "obj", "off", "ma", "npz"),
     "thickness": ("ply", "csv", "json"),
@@ -50,15 +48,8 @@ def folder(tmp_path, monkeypatch):
 
 
 INPUTS = (
-    "a.off",
-    "b.obj",
-    "with space.obj",
-    "sub/a.off",
-    "sub/b.obj",
-    "c.npz",
-    "hard.off",
-    "soft.obj",
-)
+    "a.off", "b.obj", "with space.obj", "sub/a.off", "sub/b.obj", "c.npz", "hard.off", "soft.obj",
+)  # fmt: skip
 
 
 def alias(rng, name, folder):
@@ -68,31 +59,25 @@ def alias(rng, name, folder):
 
 
 def words_of(rng, folder):
-    command = rng.choice(list(COMMANDS))
+    command = rng.choice(list(KINDS))
     inputs = [alias(rng, name, folder) for name in rng.sample(INPUTS, rng.choice((1, 1, 2, 3)))]
     kind = rng.choice(KINDS[command])
     output = rng.choice(
         (
-            "out/new." + kind,
-            "old." + kind,
-            alias(rng, rng.choice(INPUTS), folder),
-            f"{{name}}.{kind}",
-            f"sub/{{name}}.{kind}",
-            f"linked/{{name}}.{kind}",
-            ".",
-            "out/",
-            "sub/",
-            str(folder),
+            "out/new." + kind, "old." + kind, alias(rng, rng.choice(INPUTS), folder),
+            f"{{name}}.{kind}", f"sub/{{name}}.{kind}", f"linked/{{name}}.{kind}", ".", "out/",
+            "sub/", str(folder),
         )
-    )
+    )  # fmt: skip
     options = ["--format", kind] if output.rpartition(".")[2] not in KINDS[command] else []
     options += rng.choice(([], ["--json"]))
-    return [*COMMANDS[command], *inputs, output, *options, *FEW], inputs
+    words = [] if command == "axis" else [command]
+    return [*words, *inputs, output, *options, *FEW], inputs
 
 
 def contents(folder):
     return {
-        path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        path.relative_to(folder).as_posix(): path.read_bytes()
         for path in sorted(folder.rglob("*"))
         if path.is_file() and "linked" not in path.relative_to(folder).parts
     }
@@ -109,11 +94,11 @@ def test_fuzzed_outputs(folder, seed):
     for _ in range(3):  # a later command may meet what an earlier one made
         words, inputs = words_of(rng, folder)
         before = contents(folder)
-        read = {path: hashlib.sha256((folder / path).read_bytes()).hexdigest() for path in inputs}
+        read = {path: (folder / path).read_bytes() for path in inputs}
         code = run(words)
         after = contents(folder)
         for path, kept in read.items():
-            assert hashlib.sha256((folder / path).read_bytes()).hexdigest() == kept, (words, path)
+            assert (folder / path).read_bytes() == kept, (words, path)
         assert before.keys() <= after.keys(), words
         if code == cli.USAGE:
             assert after == before, words
@@ -123,8 +108,5 @@ def test_fuzzed_outputs(folder, seed):
 
 def test_both_ends_are_met(folder):
     """Among the first commands some are refused and some are done; else the fuzz tells nothing."""
-    codes = set()
-    for seed in range(20):
-        words, _ = words_of(random.Random(seed), folder)
-        codes.add(run(words))
+    codes = {run(words_of(random.Random(seed), folder)[0]) for seed in range(20)}
     assert {cli.USAGE, cli.DONE} <= codes

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# ruff: noqa: F811 - the fixture of another file is an argument here
 """PLY, OBJ, STL and arrays of NumPy: the same cube comes out of each, and nothing wrong goes in."""
 
 import io
 import itertools
 import struct
+from functools import partial
 
 import numpy as np
 import pytest
-from medial_axis.core.errors import ReadError
-from medial_axis.core.files.read import import_points
 from medial_axis.core.files.read_shape import read_shape
+from support.topology import volume
+from test_import import read, refusal  # noqa: F401 - a fixture
 
 POINTS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
 QUADS = np.array(
@@ -60,14 +62,9 @@ def off():
 def off_binary(order=">", real="f", colours=(0,), faces=QUADS.tolist(), points=POINTS, kind=""):
     """A binary OFF file; `colours` follow each face: their number, and as many words."""
     words = [word for face in faces for word in (len(face), *face, *colours)]
-    return b"".join(
-        (
-            f"{kind}OFF BINARY\n".encode(),
-            struct.pack(f"{order}3i", len(points), len(faces), 0),
-            struct.pack(f"{order}{points.size}{real}", *points.ravel()),
-            struct.pack(f"{order}{len(words)}i", *words),
-        )
-    )
+    data = struct.pack(f"{order}3i", len(points), len(faces), 0)
+    data += struct.pack(f"{order}{points.size}{real}", *points.ravel())
+    return f"{kind}OFF BINARY\n".encode() + data + struct.pack(f"{order}{len(words)}i", *words)
 
 
 def stl_text():
@@ -97,24 +94,8 @@ def npy(array):
 
 
 @pytest.fixture
-def read(tmp_path):
-    def read_content(name, content):
-        path = tmp_path / name
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
-        return import_points(path)
-
-    return read_content
-
-
-@pytest.fixture
 def refuse(read):
-    def check(name, content, words):
-        with pytest.raises(ReadError, match=words) as error:
-            read(name, content)
-        text = str(error.value)
-        assert "\n" not in text and not text.endswith(".") and text.startswith("Expected ")
-
-    return check
+    return partial(refusal, read)
 
 
 def faces_of(found):
@@ -125,10 +106,8 @@ def assert_cube(found, normals=None, faces=QUADS.tolist()):
     np.testing.assert_array_equal(found.vertices, POINTS)
     assert found.vertices.dtype == np.float64 and found.face_vertices.dtype == np.int32
     assert faces_of(found) == faces and found.warnings == ()
-    if normals is None:
-        assert found.normals is None
-    else:
-        np.testing.assert_array_equal(found.normals, normals)
+    assert (found.normals is None) == (normals is None)
+    assert normals is None or np.array_equal(found.normals, normals)
 
 
 # --- PLY
@@ -189,12 +168,10 @@ def test_what_is_passed_over_in_a_ply_need_not_be_finite(read, refuse):
     assert found.face_vertices.tolist() == [0, 1, 2] and found.warnings == ()
     for right, wrong in (("1 0 0 1e999", "1 0 1e999 0"), ("0 1 0 -inf", "nan 1 0 0")):
         line = PASSED_OVER[: PASSED_OVER.index(right)].count("\n") + 1
-        refuse(
-            "a.ply", PASSED_OVER.replace(right, wrong).encode(), f"finite numbers in line {line}"
-        )
-    refuse("a.ply", PASSED_OVER.replace("nan", "none").encode(), "numbers in line 12 .* 'none'")
+        refuse("a.ply", PASSED_OVER.replace(right, wrong), f"finite numbers in line {line}")
+    refuse("a.ply", PASSED_OVER.replace("nan", "none"), "numbers in line 12 .* 'none'")
     for corners in ("inf 0 1 2", "3 0 1 inf", "nan 0 1 2", "3 0 nan 2"):
-        refuse("a.ply", PASSED_OVER.replace("3 0 1 2", corners).encode(), "corners")
+        refuse("a.ply", PASSED_OVER.replace("3 0 1 2", corners), "corners")
 
 
 # --- OBJ
@@ -214,10 +191,8 @@ def test_obj_as_others_write_it(read):
 
 
 def test_obj_of_points_with_normals(read):
-    text = "".join(
-        "vn {:.17g} {:.17g} {:.17g}\nv {:g} {:g} {:g}\n".format(*n, *p)
-        for n, p in zip(NORMALS, POINTS)
-    )
+    row = "vn {:.17g} {:.17g} {:.17g}\nv {:g} {:g} {:g}\n"
+    text = "".join(row.format(*n, *p) for n, p in zip(NORMALS, POINTS))
     found = read("a.obj", text)
     np.testing.assert_array_equal(found.normals, NORMALS)
     assert found.faces == 0
@@ -240,11 +215,9 @@ def test_obj_of_points_with_normals(read):
 def test_stl(read, content):
     found = read("a.stl", content)
     assert len(found.vertices) == 8 and found.faces == 12
-    np.testing.assert_array_equal(
-        found.vertices[found.face_vertices.reshape(-1, 3)], POINTS[TRIANGLES]
-    )
-    first = [tuple(p) for p in found.vertices]
-    seen = list(dict.fromkeys(map(tuple, POINTS[TRIANGLES].reshape(-1, 3))))
+    corners = POINTS[TRIANGLES].reshape(-1, 3)
+    np.testing.assert_array_equal(found.vertices[found.face_vertices], corners)
+    first, seen = [*map(tuple, found.vertices)], [*dict.fromkeys(map(tuple, corners))]
     assert first == seen, "points come in the order of the file"
 
 
@@ -308,8 +281,7 @@ def test_shape_of_a_file(tmp_path):
     (tmp_path / "a.obj").write_text(obj())
     shape, warnings = read_shape(tmp_path / "a.obj")
     assert shape.triangles.shape == (12, 3) and shape.triangles.dtype == np.int32
-    a, b, c = (shape.points[shape.triangles[:, i]] for i in range(3))
-    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(1.0)
+    assert volume(shape.points, shape.triangles) == pytest.approx(1.0)
     assert warnings == () and shape.normals is None
     np.testing.assert_array_equal(shape.frame, np.identity(4))
 

@@ -57,9 +57,8 @@ def assert_balls(points, mesh):
     assert (np.abs(nearest - mesh.radius) <= slack).all()
     face = np.repeat(np.arange(len(mesh.generators)), np.diff(mesh.face_offsets))
     for end in (0, 1):
-        arm = np.linalg.norm(
-            mesh.vertices[mesh.face_vertices] - points[mesh.generators[face, end]], axis=1
-        )
+        ends = points[mesh.generators[face, end]]
+        arm = np.linalg.norm(mesh.vertices[mesh.face_vertices] - ends, axis=1)
         assert (np.abs(arm - mesh.radius[mesh.face_vertices]) <= slack[mesh.face_vertices]).all()
 
 
@@ -67,12 +66,11 @@ def assert_polygons(points, mesh):
     """Planar, across pq; convex and counter-clockwise about the direction from p to q, up to 24 bits of the radius."""
     for corners, (p, q) in zip(polygons(mesh), mesh.generators):
         ring = mesh.vertices[corners]
-        axis = (points[q] - points[p]) / np.linalg.norm(points[q] - points[p])
-        slack = 2.0**-21 * mesh.radius[corners].max() + 8 * np.spacing(
-            np.abs(ring).max() + np.abs(points).max()
-        )
-        middle = 0.5 * (points[p] + points[q])
-        stretch = mesh.radius[corners].max() / np.linalg.norm(points[q] - points[p])
+        apart, largest = np.linalg.norm(points[q] - points[p]), mesh.radius[corners].max()
+        axis = (points[q] - points[p]) / apart
+        size = np.abs(ring).max() + np.abs(points).max()
+        slack = 2.0**-21 * largest + 8 * np.spacing(size)
+        middle, stretch = 0.5 * (points[p] + points[q]), largest / apart
         assert (np.abs((ring - middle) @ axis) <= slack * (1 + stretch)).all(), "not planar"
         step = np.roll(ring, -1, axis=0) - ring
         turn = np.cross(step, np.roll(step, -1, axis=0)) @ axis
@@ -124,12 +122,8 @@ def test_facets_of_positive_area_leave_no_counted_facet_out(result):
 
 def test_types_and_shapes(result):
     points, analysis, mesh = result
-    v, f, c, e = (
-        len(mesh.vertices),
-        len(mesh.generators),
-        len(mesh.face_vertices),
-        len(analysis.edges),
-    )
+    v, f = len(mesh.vertices), len(mesh.generators)
+    c, e = len(mesh.face_vertices), len(analysis.edges)
     expected = [
         (mesh, "vertices", (v, 3), "f8"),
         (mesh, "radius", (v,), "f8"),
@@ -150,21 +144,17 @@ def test_types_and_shapes(result):
     ]
     for owner, name, shape, dtype in expected:
         array = getattr(owner, name)
-        assert (
-            array.shape == shape and array.dtype == np.dtype(dtype) and array.flags.c_contiguous
-        ), name
+        assert (array.shape, array.dtype) == (shape, np.dtype(dtype)), name
+        assert array.flags.c_contiguous, name
         assert not array.flags.writeable, name
         if array.size:
             with pytest.raises(ValueError):
                 array.flags.writeable = True
             with pytest.raises(ValueError):
                 array[...] = 0
-    assert isinstance(mesh.unbounded, int) and isinstance(mesh.zero_area, int)
-    assert (
-        isinstance(analysis.duplicates, int)
-        and isinstance(analysis.cells, int)
-        and isinstance(analysis.closed, bool)
-    )
+    for number in (mesh.unbounded, mesh.zero_area, analysis.duplicates, analysis.cells):
+        assert isinstance(number, int)
+    assert isinstance(analysis.closed, bool)
 
 
 def test_stage_arrays_have_the_documented_types(study):
@@ -174,15 +164,9 @@ def test_stage_arrays_have_the_documented_types(study):
     offsets, triangles = study.umbrellas(points)
     winding = study.winding_number(points, *meshes.icosphere(1))
     for array, dtype in (
-        (cells, "i4"),
-        (neighbors, "i4"),
-        (centres, "f8"),
-        (vectors, "f8"),
-        (unbounded, "?"),
-        (offsets, "i8"),
-        (triangles, "i4"),
-        (winding, "f8"),
-    ):
+        (cells, "i4"), (neighbors, "i4"), (centres, "f8"), (vectors, "f8"), (unbounded, "?"),
+        (offsets, "i8"), (triangles, "i4"), (winding, "f8"),
+    ):  # fmt: skip
         assert array.dtype == np.dtype(dtype) and not array.flags.writeable
 
 
@@ -203,12 +187,9 @@ def test_the_input_is_not_changed(medial):
 
 def test_bounding_sphere_bounds_the_outer_axis(medial):
     """Dey & Zhao, sect. 4.2: nothing selected reaches infinity, ids stay those of the input, the inner axis stays."""
-    points = shapes.SHAPES["slab"].sample(2000, 0)
     slab = shapes.SHAPES["slab"]
-    plain, bounded = (
-        medial.MedialAnalysis(points),
-        medial.MedialAnalysis(points, bounding_sphere=True),
-    )
+    points = slab.sample(2000, 0)
+    plain, bounded = (medial.MedialAnalysis(points, bounding_sphere=b) for b in (False, True))
     assert bounded.edges.max() < len(points) and bounded.bounded.all()
     far = [np.linalg.norm(a.extract().vertices, axis=1).max() for a in (plain, bounded)]
     assert plain.extract().unbounded > 0 and bounded.extract().unbounded == 0
@@ -217,7 +198,6 @@ def test_bounding_sphere_bounds_the_outer_axis(medial):
     for analysis in (plain, bounded):
         mesh = analysis.extract()
         inside = slab.inside(mesh.vertices)
-        inner.append(
-            {tuple(g) for g, c in zip(mesh.generators.tolist(), polygons(mesh)) if inside[c].all()}
-        )
+        facets = zip(mesh.generators.tolist(), polygons(mesh))
+        inner.append({tuple(g) for g, corners in facets if inside[corners].all()})
     assert len(inner[0] ^ inner[1]) <= 0.01 * len(inner[0])

@@ -14,26 +14,16 @@ from support import meshes, swept
 from support.thick_meshes import block
 
 
-class FacesOnly:
-    """The distance from all faces, also those inside."""
-
-    def __init__(self, medial, mesh):
-        self.medial, self.mesh = medial, mesh
-
-    def __call__(self, places):
-        return np.asarray(self.medial.surface_distances(places, *self.mesh))
-
-
 def joined(medial, mesh, net):
-    mesh = np.asarray(mesh[0], float), np.asarray(mesh[1], np.int32)
-    return join_pieces(net, FacesOnly(medial, mesh), Shape(*mesh))[0]
+    """How many pieces are, by distances from all faces, also those inside."""
+    depth = lambda places: medial.surface_distances(places, *mesh)
+    return join_pieces(net, depth, Shape(*mesh))[0]
 
 
 def net_of(points, wires, singles):
-    points = np.array(points, float)
-    wires = np.array(wires, np.int32).reshape(-1, 2)
-    count = len(points)
-    return Net(points, np.full(count, 0.3), wires, np.array(singles, np.int32), np.ones(count))
+    wires, singles = np.array(wires, np.int32).reshape(-1, 2), np.array(singles, np.int32)
+    ones = np.ones(len(points))
+    return Net(np.array(points, float), 0.3 * ones, wires, singles, ones)
 
 
 def test_pieces_along_a_rod_become_one_branch(medial):
@@ -49,19 +39,15 @@ def test_pieces_along_a_rod_become_one_branch(medial):
 
 def test_a_piece_is_joined_within_a_branch(medial):
     cross = meshes.join(block(4.0, 1.0, 1.0), block(1.0, 4.0, 1.0))
-    net = net_of(
-        [(-1.5, 0, 0), (0, 0, 0), (1.5, 0, 0), (0, 1.2, 0), (0, 1.7, 0)],
-        [(0, 1), (1, 2), (3, 4)],
-        [],
-    )
+    points = [(-1.5, 0, 0), (0, 0, 0), (1.5, 0, 0), (0, 1.2, 0), (0, 1.7, 0)]
+    net = net_of(points, [(0, 1), (1, 2), (3, 4)], [])
     assert joined(medial, cross, net) == 1  # over faces that lie inside
     assert len(net.at[1]) == 3 and len(net.branches) == 3
 
 
 def test_bodies_apart_stay_apart(medial):
     for gap in (1.0, 0.01, 0.001):
-        first, second = block(1.0, 1.0, 1.0), block(1.0, 1.0, 1.0)
-        mesh = meshes.join(first, (second[0] + (1.0 + gap, 0, 0), second[1]))
+        mesh = meshes.join(block(1.0, 1.0, 1.0), block(1.0, 1.0, 1.0, (1.0 + gap, 0, 0)))
         net = net_of([(0, 0, 0), (1.0 + gap, 0, 0)], [], [0, 1])
         assert joined(medial, mesh, net) == 0 and len(net.at) == 2
 
@@ -87,13 +73,11 @@ def chain_of_tubes(count, radius, seed):
 
 
 def test_a_torn_chain_of_open_tubes_is_joined_and_told(monkeypatch, tmp_path):
-    points, triangles = chain_of_tubes(20, 0.1, 5)
-    shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
+    shape = Shape(*chain_of_tubes(20, 0.1, 5))
     settings = Settings(samples=500, sampling=SamplingMode.SURFACE)
     found = compute_skeleton(shape, settings, SkeletonSettings())
-    monkeypatch.setattr(
-        medial_axis.core.skeleton.compute, "join_pieces", lambda *_: (0, no_joins())
-    )
+    work = medial_axis.core.skeleton.compute
+    monkeypatch.setattr(work, "join_pieces", lambda *_: (0, no_joins()))
     torn = compute_skeleton(shape, settings, SkeletonSettings())
     assert found.skeleton.pieces < torn.skeleton.pieces
     assert any("were joined to others across gaps" in sentence for sentence in found.warnings)
@@ -101,10 +85,9 @@ def test_a_torn_chain_of_open_tubes_is_joined_and_told(monkeypatch, tmp_path):
     assert len(whole.gaps) and (whole.gaps > 0.0).all() and not len(torn.skeleton.gaps)
     assert torn.skeleton.pieces - whole.pieces >= len(whole.gaps)
     export_skeleton(whole, found.parts, path)
-    rows = {line.split()[0]: line.split() for line in path.read_text().splitlines()}
-    lines = [
-        x for x in path.read_text().splitlines() if x.startswith("# joins pieces across a gap: ")
-    ]
+    text = path.read_text().splitlines()
+    rows = {line.split()[0]: line.split() for line in text}
+    lines = [line for line in text if line.startswith("# joins pieces across a gap: ")]
     assert len(lines) == len(whole.gaps)
     for line, gap in zip(lines, whole.gaps, strict=True):
         a, b, length = line.split(": ")[1].split()

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import medial_axis
 import pytest
+from support.package import ROOT
 
 pytestmark = pytest.mark.docs
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "libraries.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
 CONSUMER = ROOT / "tests" / "consumer"
@@ -26,14 +26,9 @@ def test_example_for_python_prints_what_the_page_says(tmp_path):
     (tmp_path / "example.py").write_text(block("python"))
     package = Path(medial_axis.__file__).parent
     (tmp_path / "medial_axis").symlink_to(package, target_is_directory=True)
-    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(
-        [sys.executable, "example.py"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        env=environment,
-    )
+    options = {"env": {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}, "text": True}
+    command = [sys.executable, "example.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, **options)
     assert done.stdout == block("text"), done.stderr
     assert (tmp_path / "ellipsoid.ply").stat().st_size > 10_000
 

@@ -66,10 +66,8 @@ def test_everything_offered_is_described(name):
 
 @pytest.mark.parametrize("settings", [{}, {"side": medial_axis.Side.BOTH, "theta": 0.2}])
 def test_surface_as_in_the_add_on(settings):
-    mesh = torus()
-    points, triangles = np.asarray(mesh[0], float), np.asarray(mesh[1], np.int32)
-    ours = medial_axis.compute(points, triangles, **settings)
-    theirs = axis.compute(points, triangles, Settings(**settings))
+    ours = medial_axis.compute(*torus(), **settings)
+    theirs = axis.compute(*torus(), Settings(**settings))
     assert len(ours.axis.vertices) > 100
     assert same(ours.axis, theirs.axis) and ours.settings == theirs.settings
 
@@ -104,8 +102,7 @@ def test_other_thresholds_of_the_same_analysis():
 
 
 def test_reconstructs():
-    points = egg()
-    surface = medial_axis.reconstruct(points.astype(np.float32))
+    surface = medial_axis.reconstruct(egg().astype(np.float32))
     assert len(surface.triangles) == 2 * len(surface.vertices) - 4
 
 
@@ -139,18 +136,15 @@ def test_writes_and_reads(tmp_path):
 
 
 POINTS, TRIANGLES = icosphere(1)
+ROWS = "Expected points as rows of three numbers"
 
 
 @pytest.mark.parametrize(
     "given, settings, said",
     [
-        (
-            ([[0, 0], [1, 1]],),
-            {},
-            r"Expected points as rows of three numbers, found shape \(2, 2\)",
-        ),
-        (([[0, 0, 0], [1, 1]],), {}, "Expected points as rows of three numbers"),
-        ((["abc"],), {}, "Expected points as rows of three numbers"),
+        (([[0, 0], [1, 1]],), {}, rf"{ROWS}, found shape \(2, 2\)"),
+        (([[0, 0, 0], [1, 1]],), {}, ROWS),
+        ((["abc"],), {}, ROWS),
         (([[np.nan, 0, 0]] * 5,), {}, "Expected finite"),
         ((POINTS, [[0.0, 1.0, 2.0]]), {}, "Expected triangles as rows of three integers"),
         ((POINTS, [[0, 1, 1 << 40]]), {}, "Expected rows of points in triangles, found"),
@@ -173,18 +167,12 @@ def test_wrong_input_is_one_sentence(given, settings, said):
 
 
 MISUSES = {
-    "masked points": lambda found, path: library.compute(
-        np.ma.masked_greater(POINTS, 0.5), TRIANGLES
-    ),
-    "masked triangles": lambda found, path: library.compute(
-        POINTS, np.ma.masked_equal(TRIANGLES, 3)
-    ),
+    "masked points": lambda *_: library.compute(np.ma.masked_greater(POINTS, 0.5), TRIANGLES),
+    "masked triangles": lambda *_: library.compute(POINTS, np.ma.masked_equal(TRIANGLES, 3)),
     "points that are none": lambda found, path: library.compute(None),
     "a huge number": lambda found, path: library.compute(POINTS, TRIANGLES, theta=10**400),
     "progress of compute": lambda found, path: library.compute(POINTS, progress="x"),
-    "progress of parts": lambda found, path: library.compute_each_part(
-        POINTS, TRIANGLES, progress=1
-    ),
+    "progress of parts": lambda *_: library.compute_each_part(POINTS, TRIANGLES, progress=1),
     "progress of balls": lambda found, path: library.cover_by_balls(POINTS, progress=1),
     "progress of a surface": lambda found, path: library.reconstruct(POINTS, progress=1),
     "progress of few vertices": lambda found, path: library.reduce(found, 9, progress=1),

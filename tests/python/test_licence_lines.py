@@ -3,26 +3,14 @@
 
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 SUFFIXES = {
-    ".py",
-    ".pyi",
-    ".sh",
-    ".cmake",
-    ".yaml",
-    ".yml",
-    ".toml",
-    ".map",
-    ".cpp",
-    ".h",
-    ".js",
-    ".css",
-}
+    ".py", ".pyi", ".sh", ".cmake", ".yaml", ".yml", ".toml", ".map", ".cpp", ".h", ".js", ".css",
+}  # fmt: skip
 NAMES = {"CMakeLists.txt", ".clang-format", ".clang-tidy", "run"}
 #: Files of these kinds hold no comment. Archives, wheels and compiled files are not among them.
 OTHERS = {".md", ".png", ".svg", ".txt", ".csv", ".json", ".typed", ".po"}
@@ -37,11 +25,6 @@ def tracked():
     return [ROOT / name for name in listed if (ROOT / name).is_file()]
 
 
-def sources():
-    """The tracked files that can hold a comment."""
-    return [p for p in tracked() if p.suffix in SUFFIXES or p.name in NAMES]
-
-
 def test_nothing_built_or_fetched_is_in_the_tree():
     """Wheels that a download had left at the top level were once committed with everything else."""
     names = NAMES | OTHER_NAMES
@@ -50,7 +33,7 @@ def test_nothing_built_or_fetched_is_in_the_tree():
 
 
 def test_every_source_names_its_licence():
-    found = sources()
+    found = [path for path in tracked() if path.suffix in SUFFIXES or path.name in NAMES]
     assert len(found) > 200
     without = []
     for path in found:

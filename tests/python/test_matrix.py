@@ -5,20 +5,18 @@ import importlib.util
 import json
 import sys
 import zipfile
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 FACTS = {"blender": "5.2.2", "python": "3.14.1", "numpy": "2.4", "installed": "extension"}
 
 
 @pytest.fixture
 def matrix(monkeypatch):
-    spec = importlib.util.spec_from_file_location(
-        "matrix_run", ROOT / "tests" / "matrix" / "run.py"
-    )
+    program = ROOT / "tests" / "matrix" / "run.py"
+    spec = importlib.util.spec_from_file_location("matrix_run", program)
     module = importlib.util.module_from_spec(spec)
     monkeypatch.setitem(sys.modules, "matrix_run", module)
     spec.loader.exec_module(module)

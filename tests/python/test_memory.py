@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -137,17 +138,16 @@ def test_free_memory_of_linux():
         free_memory._available("MemTotal: 1 kB\n")
 
 
+NEWER = ("memory.max", "memory.current")
+OLDER = ("memory.limit_in_bytes", "memory.usage_in_bytes")
+
+
 @pytest.mark.parametrize(
     ("line", "folder", "names", "dropped"),
     [
-        ("0::/a/b", "a", ("memory.max", "memory.current"), "inactive_file 50"),
-        ("0::/elsewhere", ".", ("memory.max", "memory.current"), "inactive_file 50"),
-        (
-            "4:memory:/a/b",
-            "memory/a/b",
-            ("memory.limit_in_bytes", "memory.usage_in_bytes"),
-            "total_inactive_file 50",
-        ),
+        ("0::/a/b", "a", NEWER, "inactive_file 50"),
+        ("0::/elsewhere", ".", NEWER, "inactive_file 50"),
+        ("4:memory:/a/b", "memory/a/b", OLDER, "total_inactive_file 50"),
     ],
 )
 def test_free_memory_of_control_groups(tmp_path, line, folder, names, dropped):
@@ -265,11 +265,9 @@ def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
     shape, settings = cloud(), Settings(mesh=Mesh.VORONOI)
     found = compute_axis(shape, settings, limit=MemoryLimit(0, THIN))
     for axis in (found.axis, refilter(found.key, replace(found.settings, rho=9.0))):
-        ends = shape.points[axis.generators[0]]
-        vertex = axis.vertices[axis.face_vertices[axis.face_offsets[0]]]
-        assert np.linalg.norm(ends - vertex, axis=1) == pytest.approx(
-            axis.radius[axis.face_vertices[axis.face_offsets[0]]], rel=1e-6
-        )
+        ends, vertex = shape.points[axis.generators[0]], axis.face_vertices[axis.face_offsets[0]]
+        away = np.linalg.norm(ends - axis.vertices[vertex], axis=1)
+        assert away == pytest.approx(axis.radius[vertex], rel=1e-6)
         assert set(axis.generators.ravel()) <= set(found.chosen.samples.rows)
 
 
@@ -304,10 +302,8 @@ def test_thinned_surfaces_have_fewer_samples(room, settings):
     room(5000, MESH)
     found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
     assert found.points <= 5000 and found.axis.facets > 0
-    assert (
-        ": at most " in found.warnings[0]
-        and "samples of the surface were taken" in found.warnings[0]
-    )
+    for words in (": at most ", "samples of the surface were taken"):
+        assert words in found.warnings[0]
     if not settings.keep_vertices:
         assert found.points > 0.9 * 0.95 * MemoryLimit(use=MESH).points
 
@@ -347,9 +343,8 @@ def test_thinning_is_deterministic_and_close():
     rows = spread_rows(points, 3000)
     assert rows.tolist() == spread_rows(points.copy(), 3000).tolist() == sorted(set(rows.tolist()))
     assert 2000 < len(rows) <= 3000 and rows.dtype == np.int32
-    far = cKDTree(points[rows]).query(points)[0].max()
     spacing = np.sqrt(4 * np.pi * 0.5 / len(rows))
-    assert far < 3 * spacing
+    assert cKDTree(points[rows]).query(points)[0].max() < 3 * spacing
 
 
 def test_a_quick_answer_has_few_points_and_faces_that_stay_closed():
@@ -387,16 +382,14 @@ def test_command_line_refuses(here, capsys):
 
 def test_command_line_thins_and_resumes(here, capsys):
     megabytes = str(memory_needed(20_000) // MEGABYTE)
-    words = ["egg.npy", "egg.ma", "--memory-limit", megabytes, "--above-limit", "thin", "--json"]
-    assert cli.main(words) == cli.DONE
-    said = capsys.readouterr()
-    assert "evenly spread, were kept" in said.err and '"status": "done"' in said.out
-    assert cli.main(words) == cli.DONE
-    assert '"status": "kept"' in capsys.readouterr().out
-    assert cli.main(["egg.npy", "egg.ma", "--json"]) == cli.DONE  # all points: another output
-    assert '"status": "done"' in capsys.readouterr().out
-    assert cli.main(words) == cli.DONE  # more than was requested is kept
-    assert '"status": "kept"' in capsys.readouterr().out
+    words = ["egg.npy", "egg.ma", "--json"]
+    thin = [*words, "--memory-limit", megabytes, "--above-limit", "thin"]
+    # All points give another output, and more than was requested is kept.
+    for run, status in ((thin, "done"), (thin, "kept"), (words, "done"), (thin, "kept")):
+        assert cli.main(run) == cli.DONE
+        said = capsys.readouterr()
+        assert f'"status": "{status}"' in said.out
+        assert (run, status) != (thin, "done") or "evenly spread, were kept" in said.err
 
 
 def test_command_line_says_what_it_expects(here, capsys):
@@ -437,7 +430,6 @@ def test_a_limit_of_addresses_counts(tmp_path):
     assert 0 < int(said.stdout) < 700 << 20
 
 
-SIDES = ("inner", "both")
 PEAK = """
 import re, sys
 sys.path.insert(0, sys.argv[1])
@@ -459,18 +451,9 @@ print(code, peak() - before)
 @pytest.mark.parametrize(
     ("faces", "form", "suffix", "side"),
     [
-        *[
-            (faces, "published", suffix, side)
-            for faces in (False, True)
-            for suffix in (".npz", ".ply", ".ma")
-            for side in SIDES
-        ],
-        *[(faces, "published", ".ma", "outer") for faces in (False, True)],
-        *[
-            (faces, "clean", suffix, "inner")
-            for faces in (False, True)
-            for suffix in (".npz", ".ma")
-        ],
+        *product((False, True), ["published"], (".npz", ".ply", ".ma"), ("inner", "both")),
+        *product((False, True), ["published"], [".ma"], ["outer"]),
+        *product((False, True), ["clean"], (".npz", ".ma"), ["inner"]),
         (True, "clean --no-crisp", ".ma", "inner"),
         (True, "curve", ".ma", "inner"),
     ],

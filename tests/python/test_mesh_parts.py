@@ -22,6 +22,10 @@ THREE = meshes.join(cube(), SHEET, cube((3, 0, 0)))
 FEW = {"sampling": SamplingMode.SURFACE, "samples": 1500}
 
 
+def computed(mesh):
+    return compute_axis(Shape(*mesh), Settings(**FEW))
+
+
 def expected(points, triangles):
     """The part of each face, by faces that share an edge of places."""
     _, place = np.unique(points, axis=0, return_inverse=True)
@@ -119,12 +123,12 @@ def test_places_of_parts(medial, name, pose):
 
 def test_results_tell_the_parts(tmp_path, capsys):
     points, triangles = meshes.join(THREE, inward(cube((0, 3, 0))))
-    found = compute_axis(Shape(points, triangles), Settings(**FEW))
+    found = computed((points, triangles))
     assert str(found.mesh) == (
         "4 connected parts; 1 of them open; 1 of them with faces that were turned; "
         "3 of them apart from all others; 1 of them without thickness"
     )
-    assert str(compute_axis(Shape(*cube()), Settings(**FEW)).mesh) == ""
+    assert str(computed(cube()).mesh) == ""
     assert compute_axis(Shape(found.chosen.samples.points, triangles[:0]), Settings()).mesh is None
     np.savez(tmp_path / "a.npz", points=points, triangles=triangles)
     words = [str(tmp_path / "a.npz"), str(tmp_path / "b.ma"), "--json", "--samples", "1500"]
@@ -147,9 +151,7 @@ def test_a_wrap_is_not_counted():
 def test_a_large_sheet_is_left_out_of_the_whole():
     """Less than three quarters of all faces bound the solid then."""
     points, triangles = wavy()
-    found = compute_axis(
-        Shape(*meshes.join(cube(), (9.0 * points + 2.0, triangles))), Settings(**FEW)
-    )
+    found = computed(meshes.join(cube(), (9.0 * points + 2.0, triangles)))
     assert found.axis.level is not None and found.axis.level.betti == (1, 0, 0)
     assert (found.settings.sides, found.mesh.sheets) == (SidesFrom.SURFACE, 1)
     assert found.warnings[0].startswith("722 of 734 faces are sheets without thickness")
@@ -233,9 +235,8 @@ def panels(mesh):
     points, triangles = mesh
     middle = points.mean(axis=0)
     normals = np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2)))
-    apart = (
-        points[triangles] + 1e-3 * normals[:, None] / np.linalg.norm(normals, axis=1)[:, None, None]
-    )
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    apart = points[triangles] + 1e-3 * normals[:, None]
     return (apart - middle).reshape(-1, 3), np.arange(triangles.size, dtype=np.int32).reshape(-1, 3)
 
 
@@ -244,7 +245,7 @@ def panels(mesh):
 def test_a_bent_sheet_is_refused(height, size):
     points, triangles = bent(height)
     with pytest.raises(DegenerateInputError, match="found an open sheet"):
-        compute_axis(Shape(size * points, triangles), Settings(**FEW))
+        computed((size * points, triangles))
     with pytest.raises(DegenerateInputError, match="1 without"):
         split(Shape(size * points, triangles), Settings(**FEW))
 
@@ -253,7 +254,7 @@ def test_a_bent_sheet_is_refused(height, size):
 def test_bent_sheets_beside_a_solid_are_left_out(height):
     points, triangles = bent(height)
     mesh = meshes.join(cube(), (points + 2.0, triangles), (points * (3, 3, 3) - 5.0, triangles))
-    found = compute_axis(Shape(*mesh), Settings(**FEW))
+    found = computed(mesh)
     assert found.axis.level.betti == (1, 0, 0) and found.mesh.sheets == 2
     assert found.axis.vertices.min() > -0.01 and found.axis.vertices.max() < 1.01
 
@@ -261,10 +262,10 @@ def test_bent_sheets_beside_a_solid_are_left_out(height):
 @pytest.mark.parametrize("missing", [1, 2])
 def test_boxes_with_open_sides_are_none(missing):
     points, triangles = cube()
-    found = compute_axis(Shape(points, triangles[2 * missing :]), Settings(**FEW))
+    found = computed((points, triangles[2 * missing :]))
     assert found.settings.sides is SidesFrom.SURFACE and found.mesh.sheets == 0
 
 
 def test_panels_of_a_cube_bound_it_together():
-    found = compute_axis(Shape(*panels(cube())), Settings(**FEW))
+    found = computed(panels(cube()))
     assert found.settings.sides is SidesFrom.SURFACE and found.axis.level.betti == (1, 0, 0)

@@ -2,6 +2,7 @@
 """Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -175,6 +176,21 @@ def join(*meshes: Mesh) -> Mesh:
     triangles = [triangles + offset for (_, triangles), offset in zip(meshes, start)]
     return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles).astype(
         np.int32
+    )
+
+
+def moved(mesh: Mesh, by: tuple = (0.0, 0.0, 0.0), scale: float | tuple = 1.0) -> Mesh:
+    """Scaled at the origin, and then moved."""
+    return np.asarray(mesh[0], float) * scale + by, mesh[1]
+
+
+def shape_of(mesh: Mesh, normals: NDArray[np.float64] | None = None) -> Any:
+    """The same as a `Shape` of the add-on."""
+    from medial_axis.core.shape.shape import Shape
+
+    points, triangles = mesh
+    return Shape(
+        np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32), normals
     )
 
 
