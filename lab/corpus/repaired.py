@@ -58,9 +58,7 @@ def imported(path):
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
     kind = path.suffix.lower()
-    if kind == ".off":
-        blender_demo.link(path.stem, *blender_demo.read_off(path))
-    elif kind == ".fbx":
+    if kind == ".fbx":
         bpy.ops.import_scene.fbx(filepath=str(path))
     elif kind == ".dae":
         bpy.ops.wm.collada_import(filepath=str(path))

@@ -12,6 +12,14 @@ from support.tiers import (  # noqa: F401 - found by the path that installed add
 )
 
 
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A folder in which commands run, and where Blender looks for relative paths."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PWD", str(tmp_path))
+    return tmp_path
+
+
 @pytest.fixture(autouse=True)
 def empty_scene():
     """Every test starts with nothing: no objects, no kept analyses, paper defaults."""

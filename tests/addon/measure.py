@@ -5,6 +5,8 @@ import ctypes
 import re
 import sys
 import time
+from collections import Counter
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -91,6 +93,16 @@ def evaluated(thing):
     return thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
 
 
+def instances(thing):
+    """(n, 3) the scales of what an object instances."""
+    bpy.context.view_layer.update()
+    return [
+        one.matrix_world.to_scale()[:]
+        for one in bpy.context.evaluated_depsgraph_get().object_instances
+        if one.is_instance and one.parent.original == thing
+    ]
+
+
 def read(source):
     """The shape of an object, as the add-on reads it."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
@@ -98,12 +110,18 @@ def read(source):
 
 
 def volume(mesh):
-    """The volume within a mesh, whose faces may look inward."""
+    """The volume within a closed mesh, whose faces may look inward."""
     solid = bmesh.new()
     solid.from_mesh(mesh)
     found = abs(solid.calc_volume())
     solid.free()
     return found
+
+
+def open_edges(mesh):
+    """How many edges do not have two faces."""
+    faces = Counter(key for polygon in mesh.polygons for key in polygon.edge_keys)
+    return sum(faces[edge.key] != 2 for edge in mesh.edges)
 
 
 def direct(points, triangles=None, sphere=False, **settings):
@@ -119,9 +137,7 @@ def result_of(source):
 
 def medial_objects():
     """All result objects in the file."""
-    return [
-        thing for thing in bpy.data.objects if addon("bridge.axis.axis_object").is_result(thing)
-    ]
+    return [*filter(addon("bridge.axis.axis_object").is_result, bpy.data.objects)]
 
 
 def analyses():
@@ -148,8 +164,16 @@ def watched(job):
     return seen
 
 
+def entries_of(draw, menu):
+    """The entries that a function draws in a menu of Blender: {operator: text, ...}."""
+    assert draw in menu._dyn_ui_initialize()
+    shown = {}
+    layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
+    draw(SimpleNamespace(layout=layout), bpy.context)
+    return shown
+
+
 def flush():
-    """Flushes the buffer of Blender's output."""
     ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)
 
 

@@ -10,20 +10,10 @@ import bpy
 import numpy as np
 from installed import addon
 from measure import positions
-from scene import added, link, select
+from scene import added, link, new_object, select
 
-NAMES = (
-    "",
-    "Ω≈ç√∫",
-    "メダル",
-    "a/b\\c:d*?",
-    "{name} %s %(x)d",
-    "new\nline",
-    "🦴" * 15,
-    "x" * 63,
-    ".. ",
-    "0",
-)
+NAMES = ("", "Ω≈ç√∫", "メダル", "a/b\\c:d*?", "{name} %s %(x)d", "new\nline")
+NAMES += ("🦴" * 15, "x" * 63, ".. ", "0")
 SIZES = (0.0, 1e-38, 1e-12, 1e-3, 1e3, 1e12, 1e30)
 MODIFIERS = {
     "ARRAY": {"count": 3},
@@ -62,7 +52,6 @@ def mutant(seed):
 
 
 def chosen(random, options):
-    """One of them."""
     return options[random.integers(len(options))]
 
 
@@ -122,17 +111,13 @@ def polygon(random):
     return np.concatenate([ring, [[0, 0, 2]]]), [tuple(range(39, -1, -1)), *sides]
 
 
-def nothing(random):
-    return np.zeros((0, 3)), []
-
-
 BASES = (
     grown("cube", "cone", "cylinder", "monkey"),
     grown("uv_sphere", segments=12, ring_count=8),
     grown("ico_sphere", subdivisions=2),
     grown("torus", major_segments=16, minor_segments=8),
     grown("plane", "grid", "circle"),
-    few, cloud, soup, fan, polygon, nothing,
+    few, cloud, soup, fan, polygon, lambda random: (np.zeros((0, 3)), []),
 )  # fmt: skip
 
 
@@ -154,8 +139,12 @@ def enormous(random, points, faces):
     return points, faces
 
 
-def doubled_points(random, points, faces):
-    return np.concatenate([points, points[rows(random, points)]]), faces
+def torn(random, points, faces):
+    return points, [face for face in faces if random.random() < 0.7]
+
+
+def turned_over(random, points, faces):
+    return points, [face[:: chosen(random, (1, -1))] for face in faces]
 
 
 def doubled_faces(random, points, faces):
@@ -181,23 +170,6 @@ def collapsed(random, points, faces):
     return points, faces
 
 
-def rounded(random, points, faces):
-    """Onto a coarse grid: everything coplanar, collinear and cospherical."""
-    return np.rint(points * 2), faces
-
-
-def torn(random, points, faces):
-    return points, [face for face in faces if random.random() < 0.7]
-
-
-def turned_over(random, points, faces):
-    return points, [face[:: chosen(random, (1, -1))] for face in faces]
-
-
-def loose(random, points, faces):
-    return np.concatenate([points, random.normal(size=(5, 3)) * 3]), faces
-
-
 def scaled(random, points, faces):
     """To any size, along one axis or all."""
     factor = np.full(3, chosen(random, SIZES))
@@ -206,17 +178,26 @@ def scaled(random, points, faces):
         return (points * factor).astype(np.float32).astype(np.float64), faces
 
 
-def far_away(random, points, faces):
-    return points + 10.0 ** random.integers(2, 9), faces
-
-
-def noisy(random, points, faces):
-    return points + random.normal(scale=10.0 ** random.integers(-8, 1), size=points.shape), faces
+def of_points(change):
+    """A function that changes the points alone."""
+    return lambda random, points, faces: (change(random, points), faces)
 
 
 CHANGES = (
-    poisoned, enormous, doubled_points, doubled_faces, flattened, collapsed, rounded, torn, turned_over,
-    loose, scaled, far_away, noisy,
+    poisoned,
+    enormous,
+    of_points(lambda random, points: np.concatenate([points, points[rows(random, points)]])),
+    doubled_faces,
+    flattened,
+    collapsed,
+    # Onto a coarse grid: everything coplanar, collinear and cospherical.
+    of_points(lambda random, points: np.rint(points * 2)),
+    torn,
+    turned_over,
+    of_points(lambda random, points: np.concatenate([points, random.normal(size=(5, 3)) * 3])),
+    scaled,
+    of_points(lambda random, points: points + 10.0 ** random.integers(2, 9)),
+    of_points(lambda random, points: points + random.normal(scale=10.0 ** random.integers(-8, 1), size=points.shape)),
 )  # fmt: skip
 
 
@@ -258,8 +239,7 @@ def stretched(random, thing):
 
 def sheared(random, thing):
     """A stretched parent shears the object; its scale is sometimes not finite."""
-    parent = bpy.data.objects.new("Parent", None)
-    bpy.context.scene.collection.objects.link(parent)
+    parent = new_object("Parent")
     parent.scale = (1, 5, chosen(random, (1.0, -2.0, 0.0, np.nan, 1e20)))
     thing.parent = parent
     thing.rotation_euler = random.normal(size=3)
@@ -301,9 +281,8 @@ def attributed(random, thing):
     if thing.type == "MESH":
         domain = chosen(random, ("POINT", "EDGE", "FACE", "CORNER"))
         for name in ("normal", "ma_normal", "ma_radius", "ma_epsilon", "ma_side"):
-            thing.data.attributes.new(
-                name, chosen(random, ("FLOAT", "INT", "FLOAT_VECTOR")), domain
-            )
+            kind = chosen(random, ("FLOAT", "INT", "FLOAT_VECTOR"))
+            thing.data.attributes.new(name, kind, domain)
     thing["ma_source"] = chosen(random, ("nonsense", 3, 0.5))
 
 
@@ -331,9 +310,8 @@ def out_of_sight(random, thing):
 
 def shared(random, thing):
     """A second object of the same data, elsewhere."""
-    other = bpy.data.objects.new(thing.name, thing.data)
+    other = new_object(thing.name, thing.data)
     other.location.x = 3
-    bpy.context.scene.collection.objects.link(other)
     if thing.name in bpy.context.view_layer.objects:
         select(thing, other)
 
@@ -384,18 +362,12 @@ def options(random):
     found["budget"] = int(random.integers(100, 2000))
     found["spacing"] = chosen(random, (0.0, 3.0, 10.0))
     found["wrap_opening"] = chosen(random, (5.0, 50.0))
-    left_out = random.random(len(found)) < 0.3
-    return {
-        name: value
-        for (name, value), out in zip(found.items(), left_out)
-        if not out or name in ("samples", "budget", "wrap_opening")
-    }
+    kept = random.random(len(found)) >= 0.3
+    always = ("samples", "budget", "wrap_opening")
+    return {name: found[name] for name, keep in zip(found, kept) if keep or name in always}
 
 
 def number(random, option):
-    high = min(option.maximum, 1e30)
-    value = chosen(
-        random,
-        (option.minimum, high, option.default, random.uniform(option.minimum, option.soft_maximum)),
-    )
-    return type(option.default)(value)
+    between = random.uniform(option.minimum, option.soft_maximum)
+    limits = (option.minimum, min(option.maximum, 1e30), option.default)
+    return type(option.default)(chosen(random, (*limits, between)))

@@ -83,33 +83,22 @@ def pack_sources(folder: Path) -> Path:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
-    )
+    formatter = argparse.RawTextHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
     parser.add_argument("--zip", type=Path, help="the add-on; default: packed from the sources")
-    parser.add_argument(
-        "--blender",
-        default="blender",
-        help="the Blender to test; words may stand before it: 'tests/matrix/enter.sh FOLDER blender'",
-    )
-    parser.add_argument(
-        "--bpy",
-        metavar="PYTHON",
-        help="test Blender as a module of this Python; words may stand before it here, too",
-    )
+    words = "words may stand before it: 'tests/matrix/enter.sh FOLDER blender'"
+    parser.add_argument("--blender", default="blender", help=f"the Blender to test; {words}")
+    module = "test Blender as a module of this Python; words may stand before it here, too"
+    parser.add_argument("--bpy", metavar="PYTHON", help=module)
     parser.add_argument("--script", type=Path, default=HERE / "inside.py", help="what to run")
-    parser.add_argument(
-        "--gui", action="store_true", help="drive the window instead of background mode"
-    )
+    window = "drive the window instead of background mode"
+    parser.add_argument("--gui", action="store_true", help=window)
     parser.add_argument("--keep", type=Path, help="where --gui leaves its screenshots and logs")
     parser.add_argument("--claims", type=Path, help="where processes note what they take")
     arguments, pytest_arguments = parser.parse_known_args()
     with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
-        kind, program = (
-            (BpyModule, shlex.split(arguments.bpy))
-            if arguments.bpy
-            else (Blender, shlex.split(arguments.blender))
-        )
+        kind = BpyModule if arguments.bpy else Blender
+        program = shlex.split(arguments.bpy or arguments.blender)
         blender = kind(program, Path(folder) / "profile")
         archive = (arguments.zip or pack_sources(Path(folder))).resolve()
         module = blender.install(archive)
@@ -122,12 +111,8 @@ def main() -> int:
             return drive.run_all(blender, keep, pytest_arguments, arguments.claims)
         if arguments.claims:
             pytest_arguments.append(f"--claims={arguments.claims}")
-        return blender.script(
-            arguments.script.resolve(),
-            *pytest_arguments,
-            options=["--factory-startup"],
-            check=False,
-        )
+        script, options = arguments.script.resolve(), ["--factory-startup"]
+        return blender.script(script, *pytest_arguments, options=options, check=False)
 
 
 if __name__ == "__main__":

@@ -19,10 +19,22 @@ def link(name, vertices, faces=(), edges=()):
         [tuple(map(float, v)) for v in vertices], edges, [tuple(map(int, f)) for f in faces]
     )
     mesh.update()
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(thing)
+    thing = new_object(name, mesh)
     select(thing)
     return thing
+
+
+def new_object(name, data=None):
+    """A new object of this data, or an empty one, in the scene."""
+    thing = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def move_vertices(thing, points):
+    """The vertices of a mesh object come to these places."""
+    thing.data.vertices.foreach_set("co", np.asarray(points, np.float32).ravel())
+    thing.data.update()
 
 
 def select(*things):
@@ -83,22 +95,20 @@ def suzanne(levels=1):
 def ellipsoid(name="Ellipsoid", axes=(1.0, 0.7, 0.5), segments=3):
     """A closed mesh without symmetry to speak of."""
     thing = added("ico_sphere", subdivisions=segments)
-    thing.name = name
-    points = positions(thing.data) * axes
-    points += np.random.default_rng(7).normal(scale=1e-3, size=points.shape)
-    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    thing.data.update()
-    return thing
+    return shaken(thing, name, positions(thing.data) * axes, 1e-3)
 
 
 def torus(name="Torus"):
     """A closed mesh with inner and outer axis, and facets near every threshold."""
     thing = tube_ring(48, 24, 0.4)
+    return shaken(thing, name, positions(thing.data), 5e-3)
+
+
+def shaken(thing, name, points, by):
+    """The object by another name, with its vertices not far from these places."""
     thing.name = name
-    points = positions(thing.data)
-    points += np.random.default_rng(7).normal(scale=5e-3, size=points.shape)
-    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    thing.data.update()
+    noise = np.random.default_rng(7).normal(scale=by, size=points.shape)
+    move_vertices(thing, points + noise)
     return thing
 
 
@@ -113,6 +123,13 @@ def scan(name="Scan", points=None, normals=None):
     thing = link(name, on_ellipsoid()[0] if points is None else points)
     if normals is not None:
         addon("bridge.mesh.attributes").add_normals(thing.data.attributes, normals)
+    return thing
+
+
+def with_radii(thing, radii):
+    """The object, whose vertices are centres of balls from now on."""
+    values = thing.data.attributes.new("ma_radius", "FLOAT", "POINT").data
+    values.foreach_set("value", np.asarray(radii, np.float32))
     return thing
 
 
@@ -166,6 +183,14 @@ def in_edit_mode():
         yield
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def press(operator, *things, **options):
+    """Run an operator of objects on these, or on the selection; it must succeed. Returns the active object."""
+    if things:
+        select(*things)
+    assert getattr(bpy.ops.object, operator)(**options) == {"FINISHED"}
+    return bpy.context.object
 
 
 def compute(*sources, **settings):

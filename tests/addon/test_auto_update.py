@@ -22,7 +22,7 @@ def modules():
 def pair():
     source = ellipsoid(segments=4)
     bpy.context.scene.medial_axis.sampling = "VERTICES"
-    result = compute(sampling="VERTICES")
+    result = compute()
     result.medial_axis_auto_update = True
     addon("bridge.nodes.wires").wires_group()  # as in a window, where the switch makes it
     return source, result
@@ -41,10 +41,18 @@ def edit(source, factor=1.3):
 
 def update(result, coarse=False):
     """Do what the operator does, without its thread."""
+    read = read_live(result)
+    live.write_live(read, computed(read, wish(result), "draft" if coarse else "shown"), coarse)
+
+
+def read_live(result):
+    return live.read_live(result, bpy.context.evaluated_depsgraph_get())
+
+
+def wish(result):
+    """The settings of the next update."""
     bpy.context.view_layer.update()
-    settings = auto.wish(bpy.context, result)[1]
-    read = live.read_live(result, bpy.context.view_layer.depsgraph)
-    live.write_live(read, computed(read, settings, "draft" if coarse else "shown"), coarse)
+    return auto.wish(bpy.context, result)[1]
 
 
 def computed(read, settings, what="shown"):
@@ -83,17 +91,16 @@ def test_an_update_is_what_a_computation_makes(pair):
     update(result)
     assert wanted() is None
     updated = positions(result.data)
-    compute(source, sampling="VERTICES")
-    assert np.array_equal(updated, positions(result_of(source).data))
+    assert np.array_equal(updated, positions(compute(source, sampling="VERTICES").data))
 
 
 def test_a_coarse_update_leaves_the_result_outdated(pair):
     source, result = pair
-    crisp = auto.wish(bpy.context, result)[1].crisp
+    crisp = wish(result).crisp
     edit(source)
     update(result, coarse=True)
     assert result["ma_sampling"] == "SURFACE" and wanted() == result
-    assert auto.wish(bpy.context, result)[1].crisp == crisp, "what was coarse is not wished"
+    assert wish(result).crisp == crisp, "what was coarse is not wished"
     update(result)
     assert result["ma_sampling"] != "SURFACE" and wanted() is None
 
@@ -102,8 +109,7 @@ def test_filters_stay_those_of_the_result(pair):
     _, result = pair
     result["ma_simplify"] = 0.125
     bpy.context.scene.medial_axis.samples = 900
-    _, settings = auto.wish(bpy.context, result)
-    assert (settings.simplify, settings.samples) == (0.125, 900)
+    assert (wish(result).simplify, wish(result).samples) == (0.125, 900)
 
 
 def test_what_was_refused_is_tried_again_after_another_edit(pair):
@@ -130,7 +136,7 @@ def test_sources_in_other_modes_wait_and_deleted_ones_end_it(pair):
 
 def test_a_result_that_went_away_is_not_written(pair):
     source, result = pair
-    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    read = read_live(result)
     bpy.data.objects.remove(result)
     live.write_live(read, None, False)
     assert result_of(source) is None
@@ -138,9 +144,8 @@ def test_a_result_that_went_away_is_not_written(pair):
 
 def test_an_axis_without_facets_is_told_and_not_written(pair):
     _source, result = pair
-    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
-    settings = dataclasses.replace(auto.wish(bpy.context, result)[1], theta=np.pi / 2, rho=1e9)
-    settings = dataclasses.replace(settings, form=addon("core.settings").Form.PUBLISHED)
+    read, form = read_live(result), addon("core.settings").Form.PUBLISHED
+    settings = dataclasses.replace(wish(result), theta=np.pi / 2, rho=1e9, form=form)
     facets = len(result.data.polygons)
     with pytest.raises(addon("core.errors").MedialAxisError, match="no facet passes"):
         live.write_live(read, computed(read, settings), False)
@@ -154,7 +159,8 @@ def test_undo_and_redo_step_over_updates(pair, seed):
     names = [thing.name for thing in pair]
     bpy.ops.ed.undo_push(message="set")
     rng, shapes, now = np.random.default_rng(seed), [positions(pair[0].data)], 0
-    kept = (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+    counts = lambda: (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+    kept = counts()
     for step, action in enumerate([2, 0, 1, *rng.integers(4, size=11)]):
         if action == 0 and now > 0:
             now -= bpy.ops.ed.undo() == {"FINISHED"}
@@ -170,7 +176,7 @@ def test_undo_and_redo_step_over_updates(pair, seed):
         assert np.array_equal(positions(source.data), shapes[now]), "a step was lost"
         if wanted() is not None and (step == 0 or rng.random() < 0.8):
             update(result, coarse=step > 0 and rng.random() < 0.3)
-        assert kept == (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+        assert kept == counts()
         if wanted() is None:
             assert_belongs(source, result)
 
@@ -190,7 +196,5 @@ def test_an_object_with_the_mesh_of_another_step_is_written_again(pair):
 
 def assert_belongs(source, result):
     """A result that the light calls up to date is the axis of the source."""
-    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
-    settings = auto.wish(bpy.context, result)[1]
-    axis = addon("core.axis.compute").compute_axis(read.shape, settings).axis
+    axis = addon("core.axis.compute").compute_axis(read_live(result).shape, wish(result)).axis
     assert np.allclose(positions(result.data), axis.vertices, rtol=0, atol=1e-6)

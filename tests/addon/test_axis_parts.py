@@ -5,8 +5,8 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import attribute, positions, result_of
-from scene import added, box, compute, export, select
+from measure import attribute, positions
+from scene import added, box, compute, export, press
 
 EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 
@@ -15,9 +15,9 @@ EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 def result():
     source = box(3.0, 2.0, 1.0)
     before = sorted(attribute.name for attribute in source.data.attributes)
-    compute(**EVEN)
+    axis = compute(**EVEN)
     assert sorted(attribute.name for attribute in source.data.attributes) == before
-    return result_of(source)
+    return axis
 
 
 def sharp_edges(mesh):
@@ -46,9 +46,7 @@ def test_sheets_are_smooth_and_seams_sharp(result):
 def test_a_sheet_without_seams_needs_no_normals_of_corners():
     source = added("ico_sphere", subdivisions=4)
     source.scale = (3.0, 2.0, 1.0)
-    bpy.context.view_layer.update()
-    compute(sampling="VERTICES", form="CLEAN", crisp=False)
-    mesh = result_of(source).data
+    mesh = compute(source, sampling="VERTICES", form="CLEAN", crisp=False).data
     assert len(mesh.polygons) and all(polygon.use_smooth for polygon in mesh.polygons)
     assert not sharp_edges(mesh).any() and not getattr(mesh, "use_auto_smooth", False)
 
@@ -64,7 +62,6 @@ def test_the_axis_is_read_back_as_it_was_computed(result):
 
 def test_colours_by_part_are_live(result):
     panel = bpy.context.scene.medial_axis
-    select(result)
     panel.by_part = True
     colour = result.data.color_attributes["ma_color"]
     assert colour.domain == "CORNER" and result.data.color_attributes.active_color == colour
@@ -75,29 +72,23 @@ def test_colours_by_part_are_live(result):
 
 
 def test_a_part_can_be_selected(result):
-    select(result)
-    bpy.ops.object.medial_axis_select_part(number=12)
-    assert result.mode == "EDIT"
-    assert addon("bridge.axis.parts_objects").part_of_active_face(result) in range(13)
-    bpy.ops.object.mode_set(mode="OBJECT")
     part = attribute(result.data, "ma_part")
-    selected = np.array([polygon.select for polygon in result.data.polygons])
-    assert np.array_equal(selected, part == 12)
-    bpy.ops.object.medial_axis_select_part(number=3, extend=True)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    selected = np.array([polygon.select for polygon in result.data.polygons])
-    assert np.array_equal(selected, (part == 12) | (part == 3))
+    for number, extend, chosen in ((12, False, [12]), (3, True, [12, 3])):
+        press("medial_axis_select_part", number=number, extend=extend)
+        assert result.mode == "EDIT"
+        assert addon("bridge.axis.parts_objects").part_of_active_face(result) in range(13)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        selected = np.array([polygon.select for polygon in result.data.polygons])
+        assert np.array_equal(selected, np.isin(part, chosen))
 
 
 def test_parts_become_objects_and_are_replaced(result):
-    before = positions(result.data).copy()
-    select(result)
+    before = positions(result.data)
     for _ in range(2):
-        bpy.ops.object.medial_axis_separate_parts()
+        press("medial_axis_separate_parts")
         parts = addon("bridge.axis.parts_objects").parts_of(result)
-        assert len(parts) == 13
         (collection,) = {thing.users_collection[0] for thing in parts}
-        assert len(collection.objects) == 13
+        assert len(parts) == 13 == len(collection.objects)
     assert sum(len(thing.data.polygons) for thing in parts) == len(result.data.polygons)
     assert all(thing.matrix_world == result.matrix_world for thing in parts)
     assert np.array_equal(positions(result.data), before)
@@ -105,7 +96,6 @@ def test_parts_become_objects_and_are_replaced(result):
 
 def test_other_forms_have_no_parts(result):
     panel = bpy.context.scene.medial_axis
-    select(result)
     panel.form = "PUBLISHED"
     assert "ma_part" not in result.data.attributes and "ma_structure" not in result
     assert not bpy.ops.object.medial_axis_separate_parts.poll()
@@ -114,15 +104,10 @@ def test_other_forms_have_no_parts(result):
     assert "ma_part" in result.data.attributes
 
 
-def test_a_table_is_exported(result, tmp_path):
-    select(result)
+def test_a_table_is_exported_unless_the_axis_was_changed(result, tmp_path):
     export(tmp_path / "parts.csv")
     rows = (tmp_path / "parts.csv").read_text().splitlines()
     assert rows[0].startswith("part,patch_a,patch_b,area") and len(rows) == 14
-
-
-def test_a_changed_axis_has_no_table(result):
-    select(result)
     bpy.ops.object.medial_axis_select_part(number=12)
     bpy.ops.mesh.delete(type="FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -131,11 +116,10 @@ def test_a_changed_axis_has_no_table(result):
 
 def test_the_panel_of_parts_stays_in_its_place(result):
     """If it went where the result grows by as much, the panels below would lie over what has grown."""
-    source = bpy.data.objects["Cube"]
     panel = bpy.types.VIEW3D_PT_medial_axis_parts
     assert panel.poll(bpy.context)
-    compute(source, **EVEN | {"form": "PUBLISHED"})
+    compute(bpy.data.objects["Cube"], **EVEN | {"form": "PUBLISHED"})
     assert panel.poll(bpy.context)
     assert not bpy.ops.object.medial_axis_select_part.poll()
-    bpy.data.objects.remove(result_of(source))
+    bpy.data.objects.remove(result)
     assert not panel.poll(bpy.context)

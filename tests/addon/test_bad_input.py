@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from measure import medial_objects, positions, reports, result_of, sound
+from measure import medial_objects, positions, reports, sound
 from scene import added, compute, compute_or_not, ellipsoid, link, refuse, ring, select, suzanne
 
 
@@ -43,23 +43,19 @@ def test_duplicates_are_merged_and_counted():
 
 def test_cloud_far_from_the_origin():
     points = np.random.default_rng(8).normal(size=(80, 3)).astype(np.float32)
-    result = compute(link("Far", points + np.float32(1e6)), side="BOTH")
-    sound(result)
+    sound(compute(link("Far", points + np.float32(1e6)), side="BOTH"))
     moved = link("Moved", points)
     moved.location = (1e6, 1e6, 1e6)
-    compute(side="BOTH")
-    sound(result_of(moved))
-    assert np.abs(positions(result_of(moved).data)).max() < 1e5  # the offset stays in the matrix
+    result = compute(side="BOTH")
+    sound(result)
+    assert np.abs(positions(result.data)).max() < 1e5  # the offset stays in the matrix
 
 
 def test_empty_result_leaves_an_older_one_untouched(capfd):
-    source = ellipsoid()
-    compute()
-    count = len(result_of(source).data.polygons)
-    select(source)
+    result = compute(ellipsoid(), select_result=False)
+    count = len(result.data.polygons)
     assert compute_or_not(criteria="RATIO", rho=1e9) == {"CANCELLED"}
-    assert len(result_of(source).data.polygons) == count
-    assert result_of(source)["ma_criteria"] == "ANGLE_OR_RATIO"
+    assert len(result.data.polygons) == count and result["ma_criteria"] == "ANGLE_OR_RATIO"
     assert any("no facet passes" in text for kind, text in reports(capfd) if kind == "Warning")
 
 
@@ -71,14 +67,10 @@ def test_a_source_hidden_by_h_is_read_as_it_was_seen(chosen):
     result = compute()
     points = result["ma_points"]
     source.hide_set(True)
-    select(result) if chosen == "result" else select()
+    select(*([result] if chosen == "result" else []))
     bpy.context.view_layer.objects.active = {"result": result, "source": source}[chosen]
-    for operator in (
-        "medial_axis_thickness",
-        "medial_axis_armature",
-        "medial_axis_sampling_report",
-    ):
-        assert getattr(bpy.ops.object, operator).poll(), operator
+    for operator in ("thickness", "armature", "sampling_report"):
+        assert getattr(bpy.ops.object, f"medial_axis_{operator}").poll(), operator
     compute(select_result=False)
     assert result["ma_points"] == points and "ma_source_state" in result
     assert source.hide_get() and len(medial_objects()) == 1

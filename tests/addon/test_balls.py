@@ -7,19 +7,17 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import attribute, contents, evaluated, positions, reports, result_of
-from scene import compute, ellipsoid, export, refuse_export, select, torus
+from measure import attribute, contents, evaluated, instances, positions, reports
+from scene import compute, ellipsoid, export, press, refuse_export, select, torus
 
 
 def balls_of(source):
     return addon("bridge.balls_object").balls_of(source)
 
 
-def cover(**options):
-    """The balls of the selection, by its vertices if nothing else is said."""
-    usual = {"sampling": "VERTICES"}
-    assert bpy.ops.object.medial_axis_balls(**usual | options) == {"FINISHED"}
-    return bpy.context.object
+def cover(*source, **options):
+    """The balls of a source or of the selection, by its vertices if nothing else is said."""
+    return press("medial_axis_balls", *source, **{"sampling": "VERTICES"} | options)
 
 
 def spheres(thing):
@@ -30,9 +28,8 @@ def spheres(thing):
 def test_balls_of_an_ellipsoid(capfd):
     source = ellipsoid()
     source.location, source.rotation_euler, source.scale = (3, 1, 2), (0.3, 0.2, 0.1), (2, 2, 2)
-    select(source)
     reports(capfd)
-    made = cover(count=20)
+    made = cover(source, count=20)
     text = reports(capfd)[-1][1]
     assert made == balls_of(source) and made.parent == source
     assert len(made.data.vertices) == 20 == spheres(made)
@@ -46,10 +43,9 @@ def test_balls_of_an_ellipsoid(capfd):
 def test_spheres_have_the_colours_of_their_radii():
     torus()
     made = cover(count=6)
-    core = addon("core.axis.colours")
+    core, shown = addon("core.axis.colours"), evaluated(made)
     radius = attribute(made.data, "ma_radius").astype(float)
     expected = core.colours(radius, *core.radius_range(radius))
-    shown = evaluated(made)
     away = np.linalg.norm(positions(shown)[:, None] - positions(made.data)[None], axis=2)
     own = np.argmin(np.abs(away - radius), axis=1)  # on whose sphere a vertex lies
     np.testing.assert_allclose(attribute(shown, "ma_color"), expected[own], atol=1e-5)
@@ -60,16 +56,15 @@ def test_it_is_updated_in_place():
     made = cover(count=5)
     name, before = made.name, contents()
     made.modifiers[0].show_viewport = False
-    select(made)  # the balls stand for their source
-    assert cover(count=9).name == name and contents() == before
+    assert cover(made, count=9).name == name, "the balls stand for their source"
+    assert contents() == before
     assert len(balls_of(source).data.vertices) == 9 and not made.modifiers[0].show_viewport
 
 
 def test_balls_are_written(tmp_path, capfd):
     source = torus()
     source.location = (1, 2, 3)
-    select(source)
-    made = cover(count=7)
+    made = cover(source, count=7)
     path = tmp_path / "torus.json"
     export(path)
     assert reports(capfd)[-1][1] == "Wrote 7 balls to 'torus.json'"
@@ -85,16 +80,14 @@ def test_balls_are_written(tmp_path, capfd):
 
 
 def test_an_axis_is_written_as_balls(tmp_path):
-    source = torus()
-    compute(side="INNER")
-    select(source)
-    path = tmp_path / "torus.ma"
+    source, path = torus(), tmp_path / "torus.ma"
+    axis = compute(side="INNER", select_result=False)
     export(path, balls=6, mode="AROUND")
     rows = np.loadtxt(path, skiprows=1, usecols=(1, 2, 3, 4))
     made = cover(count=6, mode="AROUND")
     world = positions(made.data) @ np.array(made.matrix_world)[:3, :3].T
     assert np.allclose(rows, np.column_stack([world, attribute(made.data, "ma_radius")]), atol=1e-5)
-    select(result_of(source))
+    select(axis)
     refuse_export(".mjcf or .xml, found 'a.ply'", tmp_path / "a.ply", balls=6)
     refuse_export("found 'a.json'", tmp_path / "a.json")
     bpy.data.objects.remove(source)
@@ -104,15 +97,9 @@ def test_an_axis_is_written_as_balls(tmp_path):
 def test_the_spheres_are_the_balls():
     source = ellipsoid()
     made = cover(count=1)
-    modifier = made.modifiers[0]
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Subdivisions": 5, "Coloured": False})
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    scales = [
-        list(one.matrix_world.to_scale())
-        for one in depsgraph.object_instances
-        if one.is_instance and one.parent.original == made
-    ]
-    assert np.allclose(scales, [3 * [attribute(made.data, "ma_radius")[0]]], rtol=1e-5)
+    inputs = addon("bridge.nodes.inputs")
+    inputs.set_inputs(made.modifiers[0], {"Subdivisions": 5, "Coloured": False})
+    assert np.allclose(instances(made), [3 * [attribute(made.data, "ma_radius")[0]]], rtol=1e-5)
     assert source.data.users == 1
 
 
@@ -129,8 +116,7 @@ def test_capsules_are_edges_shown_as_tubes(capfd):
     tube = positions(evaluated(made))
     middles = positions(made.data)
     wanted = (middles - radii[:, None]).min(axis=0), (middles + radii[:, None]).max(axis=0)
-    box = tube.min(axis=0), tube.max(axis=0)
-    assert np.allclose(box, wanted, atol=0.02)  # whole spheres at the ends
+    assert np.allclose((tube.min(axis=0), tube.max(axis=0)), wanted, atol=0.02)  # whole spheres
     half = tube[:, None] - middles[ends].mean(axis=1)[None]
     assert (np.linalg.norm(half, axis=2).min(axis=0) < 1.05 * radii[ends[:, 0]]).all()
     again = cover(count=6)  # balls instead
@@ -143,8 +129,7 @@ def test_capsules_are_edges_shown_as_tubes(capfd):
 def test_capsules_are_written(tmp_path, capfd):
     source = torus()
     source.location, source.scale = (1, 2, 3), (2, 2, 2)
-    select(source)
-    made = cover(count=9, shapes="CAPSULES")
+    made = cover(source, count=9, shapes="CAPSULES")
     path = tmp_path / "torus.json"
     export(path)
     assert reports(capfd)[-1][1] == f"Wrote {len(made.data.edges)} capsules to 'torus.json'"
@@ -157,8 +142,7 @@ def test_capsules_are_written(tmp_path, capfd):
     assert robot.read_text().count("<cylinder") == len(made.data.edges)
     cover(count=9, shapes="TAPERED")
     refuse_export("found tapered capsules; set Shapes to Capsules", tmp_path / "b.urdf")
-    compute(side="INNER")
-    select(source)
+    compute(source, side="INNER", select_result=False)
     arm = tmp_path / "arm.mjcf"
     export(arm, balls=9, shapes="CAPSULES")
     assert arm.read_text().count('type="capsule"') >= 3

@@ -13,16 +13,10 @@ import bpy
 import numpy as np
 import pytest
 from installed import MODULE, addon, program, succeeded
-from scene import ellipsoid, link, scan, select, torus
+from measure import positions, world_positions
+from scene import ellipsoid, link, press, scan, torus
 
 FOLDER = Path(addon().__file__).resolve().parent
-
-
-@pytest.fixture
-def here(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PWD", str(tmp_path))  # where Blender looks for relative paths
-    return tmp_path
 
 
 @pytest.fixture
@@ -54,31 +48,27 @@ def in_blender(*words, file=()):
 
 def walking(path="walk.blend"):
     """A file with an ellipsoid that grows and turns from frame 1 to 5, and a still torus."""
-    source = ellipsoid("Body")
+    source, scene = ellipsoid("Body"), bpy.context.scene
     for frame, size, turn in ((1, 1.0, 0.0), (5, 2.0, 1.0)):
         source.scale, source.rotation_euler = (1.0, 1.0, size), (turn, 0.0, turn)
         source.keyframe_insert("scale", frame=frame)
         source.keyframe_insert("rotation_euler", frame=frame)
     torus("Ring").location.x = 5
-    bpy.context.scene.frame_end = 5
-    bpy.context.scene.frame_set(1)
+    scene.frame_end = 5
+    scene.frame_set(1)
+    return save(path)
+
+
+def save(path):
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(path).absolute()))
     return path
 
 
-def load(path):
-    return addon("core.files.load_axis").load_axis(path)
-
-
 def operator_axis(name, frame):
-    """The result of the operator at a frame, in world space."""
+    """The result of the operator at a frame, and its vertices in the world."""
     bpy.context.scene.frame_set(frame)
-    select(bpy.data.objects[name])
-    assert bpy.ops.object.medial_axis() == {"FINISHED"}
-    result = bpy.context.object
-    axis = addon("bridge.axis.read_axis").read_axis(result)
-    matrix = np.array(result.matrix_world)
-    return axis, axis.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    result = press("medial_axis", bpy.data.objects[name])
+    return addon("bridge.axis.read_axis").read_axis(result), world_positions(result)
 
 
 # --- objects and frames
@@ -87,11 +77,11 @@ def operator_axis(name, frame):
 def test_frames_of_a_file(here, run):
     code, reports = run(walking(), "axes/", "--format", "npz", "--frames", "1-5:2")
     assert code == 0
-    assert [(r["object"], r["frame"]) for r in reports] == [
-        (name, frame) for frame in (1, 3, 5) for name in ("Body", "Ring")
-    ]
+    wanted = [(name, frame) for frame in (1, 3, 5) for name in ("Body", "Ring")]
+    assert [(r["object"], r["frame"]) for r in reports] == wanted
     for frame in (1, 3, 5):
-        axis = load(here / "axes" / f"Body_{frame:04d}.npz")
+        load_axis = addon("core.files.load_axis").load_axis
+        axis = load_axis(here / "axes" / f"Body_{frame:04d}.npz")
         expected, places = operator_axis("Body", frame)
         np.testing.assert_array_equal(axis.generators, expected.generators)
         np.testing.assert_allclose(axis.vertices, places, atol=1e-5)
@@ -100,24 +90,17 @@ def test_frames_of_a_file(here, run):
     assert len(rings) == 1, "what does not move has one axis"
 
 
-def scripted(path="scripted.blend"):
-    """A file with an ellipsoid, and a registered text that writes a file as soon as Python may run."""
+@pytest.mark.parametrize("flag, ran", [((), False), (("--allow-scripts",), True)])
+def test_python_in_a_file_runs_only_where_it_is_allowed(here, flag, ran):
+    """The preference of the machine does not matter: Blender's own option allows or forbids scripts here."""
     ellipsoid("Body")
     text = bpy.data.texts.new("startup.py")
     text.write("open('ran', 'w').close()")
     text.use_module = True
-    bpy.ops.wm.save_as_mainfile(filepath=str(Path(path).absolute()))
-    bpy.data.texts.remove(text)
-    return path
-
-
-@pytest.mark.parametrize("flag, ran", [((), False), (("--allow-scripts",), True)])
-def test_python_in_a_file_runs_only_where_it_is_allowed(here, flag, ran):
-    """The preference of the machine does not matter: Blender's own option allows or forbids scripts here."""
-    path = scripted()
+    save("scripted.blend")
     for option in ("--enable-autoexec", "--disable-autoexec"):
         Path("ran").unlink(missing_ok=True)
-        done = in_blender(path, "axis.npz", "--force", *flag, file=(option,))
+        done = in_blender("scripted.blend", "axis.npz", "--force", *flag, file=(option,))
         assert done.returncode == 0, done.stderr
         assert Path("ran").exists() is ran, f"{option} decided"
 
@@ -142,8 +125,7 @@ def test_frames_are_kept_in_any_order_of_chunks(here, run):
 def test_results_and_hidden_objects_are_not_taken(here, run):
     source = ellipsoid()
     bpy.ops.object.medial_axis()
-    hidden = torus("Hidden")
-    hidden.hide_set(True)
+    torus("Hidden").hide_set(True)
     bpy.ops.object.light_add()
     code, reports = run("{name}.ma")
     assert (code, [r["object"] for r in reports]) == (0, [source.name])
@@ -165,13 +147,11 @@ def test_objects_that_cannot_be_used(here, run):
 
 
 def test_files_that_blender_imports(here, run):
-    source = ellipsoid()
+    points = len(ellipsoid().data.vertices)
     bpy.ops.export_scene.fbx(filepath=str(here / "other.fbx"))
-    bpy.ops.wm.save_as_mainfile(filepath=str(here / "egg.blend"))
-    points = len(source.data.vertices)
-    code, reports = run(
-        "other.fbx", "none.glb", "egg.txt", "egg.blend", "{file}.ma", "--sampling=vertices"
-    )
+    save("egg.blend")
+    files = ("other.fbx", "none.glb", "egg.txt", "egg.blend")
+    code, reports = run(*files, "{file}.ma", "--sampling=vertices")
     assert code == 3
     assert [r["status"] for r in reports] == ["done", "failed", "failed", "done"], reports
     assert reports[0]["points"] - reports[0]["duplicates"] == points == reports[3]["points"]
@@ -198,10 +178,8 @@ def plain_python():
 
 
 def test_the_same_bytes_in_every_way_in(here, run):
-    source = scan("Scan")
-    points = np.array([vertex.co[:] for vertex in source.data.vertices])
-    np.save("scan.npy", points)
-    bpy.ops.wm.save_as_mainfile(filepath=str(here / "scan.blend"))
+    np.save("scan.npy", positions(scan("Scan").data))
+    save("scan.blend")
     assert run("open.npz")[0] == 0
     assert run("scan.npy", "inside.npz")[0] == 0
     done = in_blender("scan.npy", "other.npz", "--json")
@@ -227,6 +205,10 @@ def test_exit_codes_leave_blender(here):
                       file=["walk.blend"]).returncode == 1  # fmt: skip
 
 
+def made_files(folder, pattern="*.npz"):
+    return {path.name: path.read_bytes() for path in folder.glob(pattern)}
+
+
 def test_two_blenders_in_one_folder(here):
     """The same frames at the same time, in other orders: every file is whole and as if made alone."""
     walking()
@@ -238,10 +220,7 @@ def test_two_blenders_in_one_folder(here):
     ]
     assert [run.wait() for run in runs] == [0, 0]
     succeeded([*command, "alone/", "--frames=1-5"])
-    both, alone = (
-        {path.name: path.read_bytes() for path in (here / folder).glob("*.ma")}
-        for folder in ("both", "alone")
-    )
+    both, alone = (made_files(here / folder, "*.ma") for folder in ("both", "alone"))
     assert both == alone and len(both) == 10
     assert not list((here / "both").glob(".medial_axis_*"))
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from installed import addon
 from mathutils import Matrix
-from measure import attribute, evaluated, loose_edges, positions, result_of
-from scene import cells, compute, ellipsoid, exclude, link, refuse, select, torus
+from measure import attribute, evaluated, loose_edges, positions
+from scene import cells, compute, ellipsoid, exclude, link, press, refuse, select, torus, with_radii
 
 CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
 
@@ -16,12 +16,10 @@ def test_a_curve_has_the_places_and_radii_of_the_wires():
     source = torus()
     source.location = (1.0, 2.0, 3.0)
     axis = compute(**CURVE)
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
-    curve = bpy.context.object
+    curve = press("medial_axis_to_curve")
     assert curve.type == "CURVE" and curve.select_get() and not axis.select_get()
-    (spline,) = curve.data.splines
-    assert spline.use_cyclic_u and len(spline.points) == len(axis.data.vertices)
-    places = np.array([point.co[:3] for point in spline.points])
+    (spline,), (places,) = curve.data.splines, splines_of(curve)
+    assert spline.use_cyclic_u and len(places) == len(axis.data.vertices)
     order = np.lexsort(places.T), np.lexsort(positions(axis.data).T)
     np.testing.assert_array_equal(places[order[0]], positions(axis.data)[order[1]])
     radius = np.array([point.radius for point in spline.points])
@@ -31,8 +29,7 @@ def test_a_curve_has_the_places_and_radii_of_the_wires():
 
 
 def test_there_is_no_curve_of_sheets_alone():
-    ellipsoid()
-    compute(sampling="SURFACE", samples=1_500)
+    compute(ellipsoid(), sampling="SURFACE", samples=1_500)
     assert not bpy.ops.object.medial_axis_to_curve.poll()
 
 
@@ -40,27 +37,25 @@ def splines_of(curve):
     return [np.array([point.co[:3] for point in one.points]) for one in curve.data.splines]
 
 
-def length_of(curve):
-    return sum(np.linalg.norm(np.diff(one, axis=0), axis=1).sum() for one in splines_of(curve))
-
-
-def length_of_wires(mesh):
+def assert_as_long_as_wires(curve, mesh):
+    """The lines of a curve are as long as the edges of a mesh that have no face."""
     ends = positions(mesh)[loose_edges(mesh)]
-    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+    wires = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+    lines = [np.linalg.norm(np.diff(one, axis=0), axis=1).sum() for one in splines_of(curve)]
+    assert sum(lines) == pytest.approx(wires, rel=1e-5)
 
 
 def test_branches_meet_at_a_fork():
     cells(*((x, 0, 0) for x in range(9)), *((4, y, 0) for y in range(1, 5)))
     axis = compute(form="CURVE", sampling="SURFACE", samples=3_000, limb=10.0)
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
-    curve = bpy.context.object
+    curve = press("medial_axis_to_curve")
     splines = splines_of(curve)
     assert len(splines) == 3 and not any(one.use_cyclic_u for one in curve.data.splines)
     ends = [{tuple(one[0]), tuple(one[-1])} for one in splines]
     (fork,) = set.intersection(*ends)
     np.testing.assert_allclose(fork, (4.5, 0.5, 0.5), atol=0.4)
     assert len(set.union(*ends)) == 4
-    assert length_of(curve) == pytest.approx(length_of_wires(axis.data), rel=1e-5)
+    assert_as_long_as_wires(curve, axis.data)
 
 
 def test_vertices_of_sheets_are_no_points_of_the_curve():
@@ -70,21 +65,19 @@ def test_vertices_of_sheets_are_no_points_of_the_curve():
     axis = compute(form="CLEAN", sampling="SURFACE", samples=3_000, simplify=2.0)
     wires = loose_edges(axis.data)
     assert len(axis.data.polygons) > 100 and len(wires) > 20, "sheets and wires"
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
-    curve = bpy.context.object
+    curve = press("medial_axis_to_curve")
     assert all(len(one) > 1 for one in splines_of(curve))
-    assert length_of(curve) == pytest.approx(length_of_wires(axis.data), rel=1e-5)
+    assert_as_long_as_wires(curve, axis.data)
 
 
-@pytest.mark.parametrize(
-    "hide",
-    [
-        lambda thing: thing.hide_set(True),
-        lambda thing: setattr(thing, "hide_viewport", True),
-        exclude,
-    ],
-    ids=["eye", "viewport", "collection"],
-)
+HIDE = {
+    "eye": lambda thing: thing.hide_set(True),
+    "viewport": lambda thing: setattr(thing, "hide_viewport", True),
+    "collection": exclude,
+}
+
+
+@pytest.mark.parametrize("hide", HIDE.values(), ids=HIDE)
 @pytest.mark.parametrize("which", ["source", "axis"])
 def test_what_is_hidden_is_converted_too(which, hide):
     source = torus()
@@ -95,10 +88,10 @@ def test_what_is_hidden_is_converted_too(which, hide):
     select(other)
     hide(hidden)
     bpy.context.view_layer.update()
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
-    (curve,) = [thing for thing in bpy.data.objects if thing.type == "CURVE"]
+    curve = press("medial_axis_to_curve")
+    assert [curve] == [thing for thing in bpy.data.objects if thing.type == "CURVE"]
     assert len(splines_of(curve)[0]) == count
-    assert curve.visible_get() and curve == bpy.context.object and curve.select_get()
+    assert curve.visible_get() and curve.select_get()
     bpy.context.view_layer.update()
     assert np.allclose(curve.matrix_world, place, atol=1e-6)
     assert axis.users_collection and not hidden.visible_get()
@@ -113,8 +106,7 @@ def test_the_normals_of_sheets_do_not_say_what_is_inside():
 def test_huge_axes_have_normals():
     source = ellipsoid(segments=3)
     source.data.transform(Matrix.Scale(1e37, 4))
-    compute(form="CLEAN")
-    mesh = result_of(source).data
+    mesh = compute(form="CLEAN").data
     length = np.linalg.norm(attribute(mesh, "ma_normal"), axis=1)
     assert np.isclose(length, 1.0, atol=1e-5).mean() > 0.9
     assert mesh.validate() is False
@@ -148,10 +140,8 @@ def test_instances_follow_the_curve():
 
 
 def test_the_group_of_balls_shows_thousands():
-    thing = link("Many", np.random.default_rng(2).random((60_000, 3)))
-    radius = thing.data.attributes.new("ma_radius", "FLOAT", "POINT")
-    radius.data.foreach_set("value", np.full(60_000, 0.01, np.float32))
-    select(thing)
+    points = np.random.default_rng(2).random((60_000, 3))
+    thing = with_radii(link("Many", points), np.full(60_000, 0.01))
     groups = addon("bridge.nodes.groups")
     modifier = groups.add_few_balls(thing)
     shown = len(evaluated(thing).vertices) / 42

@@ -5,8 +5,9 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon, renders
+from mathutils import Matrix, Vector
 from measure import evaluated, positions, result_of
-from scene import added, compute, ellipsoid, select, torus
+from scene import added, compute, ellipsoid, new_object, press, torus
 
 EVEN = {"form": "CLEAN", "sampling": "SURFACE", "samples": 1_500}
 
@@ -19,20 +20,17 @@ def rendered(thing, folder):
     world = scene.world = bpy.data.worlds.new("White")
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
-    look = bpy.data.objects.new("Look", bpy.data.cameras.new("Look"))
-    scene.collection.objects.link(look)
+    look = scene.camera = new_object("Look", bpy.data.cameras.new("Look"))
     look.data.type, look.data.ortho_scale = "ORTHO", 4.0
-    look.location = thing.matrix_world.translation + type(look.location)((0.0, 0.0, 10.0))
-    scene.camera = look
-    scene.render.engine, scene.cycles.samples, scene.cycles.device = "CYCLES", 4, "CPU"
-    scene.render.film_transparent, scene.cycles.use_denoising = True, False
+    look.location = thing.matrix_world.translation + Vector((0.0, 0.0, 10.0))
+    render = scene.render
+    render.engine, scene.cycles.samples, scene.cycles.device = "CYCLES", 4, "CPU"
+    render.film_transparent, scene.cycles.use_denoising = True, False
     scene.view_settings.view_transform = "Standard"
-    scene.render.resolution_x = scene.render.resolution_y = 24
-    scene.render.resolution_percentage = 100
-    scene.render.filepath = str(folder / "render.png")
+    render.resolution_x = render.resolution_y = 24
+    render.resolution_percentage, render.filepath = 100, str(folder / "render.png")
     bpy.ops.render.render(write_still=True)
-    picture = bpy.data.images.load(scene.render.filepath)
-    pixels = np.array(picture.pixels[:]).reshape(-1, 4)
+    pixels = np.array(bpy.data.images.load(render.filepath).pixels[:]).reshape(-1, 4)
     return pixels[pixels[:, 3] > 0.9, :3]
 
 
@@ -50,18 +48,12 @@ def test_the_whole_ramp_is_rendered_from_thin_to_thick(tmp_path):
 
 
 def rebuilt(source):
-    select(source)
-    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    press("medial_axis_rebuild", source)
     return addon("bridge.rebuilt_object").rebuilt_of(result_of(source))
 
 
-def axis(source):
-    return result_of(source)
-
-
 def balls(source):
-    select(source)
-    bpy.ops.object.medial_axis_balls(count=8)
+    press("medial_axis_balls", source, count=8)
     return addon("bridge.balls_object").balls_of(source)
 
 
@@ -71,14 +63,8 @@ def many_balls(source):
     return made
 
 
-def thickness(source):
-    select(source)
-    bpy.ops.object.medial_axis_thickness(limit=0.3)
-    return addon("bridge.thickness.thickness_object").carrier_of(source)
-
-
 @renders
-@pytest.mark.parametrize("make", [axis, rebuilt, balls])
+@pytest.mark.parametrize("make", [result_of, rebuilt, balls])
 def test_colours_are_rendered(make, tmp_path):
     source = ellipsoid()
     compute(**EVEN)
@@ -88,7 +74,8 @@ def test_colours_are_rendered(make, tmp_path):
 @renders
 def test_the_copy_with_the_thickness_renders_its_colours(tmp_path):
     source = added("cube", size=2)
-    made = thickness(source)
+    press("medial_axis_thickness", limit=0.3)
+    made = addon("bridge.thickness.thickness_object").carrier_of(source)
     assert made != source
     assert_coloured(rendered(made, tmp_path))
 
@@ -97,28 +84,25 @@ def test_the_copy_with_the_thickness_renders_its_colours(tmp_path):
 def test_parts_as_objects_render_the_colours_of_their_axis(tmp_path):
     source = added("cube", size=2)
     source.scale.z = 0.2
-    compute(**EVEN)
-    select(result_of(source))
-    assert bpy.ops.object.medial_axis_separate_parts() == {"FINISHED"}
-    parts = addon("bridge.axis.parts_objects").parts_of(result_of(source))
+    axis = compute(**EVEN)
+    press("medial_axis_separate_parts", axis)
+    parts = addon("bridge.axis.parts_objects").parts_of(axis)
     flat = max(parts, key=lambda part: np.ptp(positions(part.data), axis=0)[:2].min())
     assert_coloured(rendered(flat, tmp_path))
 
 
 def test_a_rebuilt_solid_keeps_the_range_of_its_axis():
     source = torus()
-    compute(**EVEN)
-    made = rebuilt(source)
-    duplicate = result_of(source).copy()
+    axis = compute(**EVEN)
+    made, duplicate = rebuilt(source), axis.copy()
     bpy.context.scene.collection.objects.link(duplicate)
     colour_range = addon("bridge.mesh.colours").colour_range
     before = colour_range(made)
-    assert before == colour_range(result_of(source)) == colour_range(duplicate)
-    source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())
-    source.data.update()
+    assert before == colour_range(axis) == colour_range(duplicate)
+    source.data.transform(Matrix.Scale(2.0, 4))
     compute(source, **EVEN)
     after = colour_range(made)
-    assert after == colour_range(result_of(source)) == colour_range(duplicate)
+    assert after == colour_range(axis) == colour_range(duplicate)
     assert after[1:] == pytest.approx([2 * end for end in before[1:]], rel=0.05)
 
 
@@ -143,9 +127,8 @@ def test_a_file_with_the_group_of_an_older_version_gets_a_new_one(key, name, mak
 
 def test_the_material_of_a_rebuilt_solid_is_an_input():
     source = ellipsoid()
-    compute(**EVEN)
-    made = rebuilt(source)
-    mine = bpy.data.materials.new("Mine")
+    axis = compute(**EVEN)
+    made, mine = rebuilt(source), bpy.data.materials.new("Mine")
     modifier = addon("bridge.rebuilt_object").modifier_of(made)
     inputs = addon("bridge.nodes.inputs")
 
@@ -156,4 +139,4 @@ def test_the_material_of_a_rebuilt_solid_is_an_input():
     assert materials() == ["Medial Axis Radius"]
     inputs.set_inputs(modifier, {"Material": mine})
     assert materials() == ["Mine"]
-    assert [m.name for m in result_of(source).data.materials] == ["Medial Axis Radius"]
+    assert [m.name for m in axis.data.materials] == ["Medial Axis Radius"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import medial_objects, positions
-from scene import compute, link, select
+from scene import added, compute, link
 
 EACH = {"form": "CLEAN", "sampling": "SURFACE", "samples": 800, "each_part": True}
 
@@ -14,16 +14,13 @@ EACH = {"form": "CLEAN", "sampling": "SURFACE", "samples": 800, "each_part": Tru
 def boxes(count=5, sheet=True):
     """Boxes in a row, the first two overlapping, and a flat sheet behind them."""
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-    quads = np.array(
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    )
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     places = [0.5, 0.0, 3.0, 6.0, 9.0, 12.0][:count]
     points = np.concatenate([corners + np.array((place, 0.1 * place, 0)) for place in places])
-    faces = [*np.concatenate([quads + 8 * i for i in range(count)]).tolist()]
+    faces = np.concatenate([np.array(quads) + 8 * i for i in range(count)]).tolist()
     if sheet:
-        faces.append([len(points) + i for i in range(4)])
+        faces.append([len(points) + i for i in (0, 1, 3, 2)])
         points = np.concatenate((points, corners[:4] @ np.diag((1, 2, 2)) + (0, 5, 0)))
-        faces[-1] = [faces[-1][i] for i in (0, 1, 3, 2)]
     return link("Boxes", points, faces)
 
 
@@ -45,19 +42,16 @@ def test_five_boxes_give_five_axes_in_one_collection():
 
 def test_the_whole_and_its_parts_are_updated_by_themselves():
     source = boxes(3, sheet=False)
-    compute(**{**EACH, "each_part": False})
-    whole = addon("bridge.axis.axis_object").result_of(source)
+    whole = compute(**EACH | {"each_part": False})
     assert whole["ma_pieces"] == 2  # two overlap
-    assert whole["ma_source_mesh"] == (
-        "3 connected parts; 2 of them overlapping others; 1 of them apart from all others"
-    )
+    parts = "3 connected parts; 2 of them overlapping others; 1 of them apart from all others"
+    assert whole["ma_source_mesh"] == parts
     compute(source, **EACH)
     first = axes(source)
-    select(first[-1])
-    compute(**EACH)
+    compute(first[-1], **EACH)
     assert axes(source) == first and len(first) == 4
-    first = [tuple(polygon.vertices) for polygon in source.data.polygons[:6]]
-    one = link("One", positions(source.data)[:8], first)
+    box = [tuple(polygon.vertices) for polygon in source.data.polygons[:6]]
+    one = link("One", positions(source.data)[:8], box)
     source.data = one.data
     bpy.data.objects.remove(one)
     compute(source, **EACH)
@@ -65,20 +59,19 @@ def test_the_whole_and_its_parts_are_updated_by_themselves():
 
 
 def test_a_refusal_and_a_cancelled_job_leave_nothing(monkeypatch):
-    link("Sheet", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    added("plane")
     with pytest.raises(RuntimeError, match="found 1 without"):
         compute(**EACH)
-    select(boxes(2))
+    boxes(2)
     with monkeypatch.context() as few:
         few.setattr(addon("ui.axis.operators"), "MOST", 1)
         with pytest.raises(RuntimeError, match="at most 1 connected parts, found 2"):
             compute(**EACH)
-    operators = addon("ui.axis.compute_operator")
 
-    def cancelled(task):
+    def cancelled(_task):
         raise addon("core.errors").Cancelled("cancelled")
 
-    monkeypatch.setattr(operators, "run_task", cancelled)
+    monkeypatch.setattr(addon("ui.axis.compute_operator"), "run_task", cancelled)
     with pytest.raises(RuntimeError):
         compute(**EACH)
     assert not medial_objects()

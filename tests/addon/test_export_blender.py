@@ -3,14 +3,13 @@
 
 import os
 from pathlib import Path
-from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import attribute, positions, reports, world_positions
-from scene import compute, export, link, refuse_export, select, torus
+from measure import attribute, entries_of, positions, reports, world_positions
+from scene import compute, export, in_edit_mode, link, refuse_export, select, torus
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 BEFORE_4 = bpy.app.version < (4, 0, 0)
@@ -31,19 +30,15 @@ def corner_counts(mesh):
 
 
 def polygons(mesh):
-    """Corners of every polygon."""
     return [np.array(polygon.vertices) for polygon in mesh.polygons]
 
 
 def read_ma(path):
     """(v, 4), (e, 2), (f, 3) of a plain .ma file."""
-    lines = Path(path).read_text(encoding="ascii").splitlines()
-    counts = [int(word) for word in lines[0].split()]
-    assert len(lines) == 1 + sum(counts)
-    rows = {
-        letter: [line.split()[1:] for line in lines[1:] if line[0] == letter] for letter in "vef"
-    }
-    assert [len(rows[letter]) for letter in "vef"] == counts
+    first, *lines = Path(path).read_text(encoding="ascii").splitlines()
+    rows = {letter: [line.split()[1:] for line in lines if line[0] == letter] for letter in "vef"}
+    counts = [len(rows[letter]) for letter in "vef"]
+    assert [int(word) for word in first.split()] == counts and len(lines) == sum(counts)
     return np.array(rows["v"], float), np.array(rows["e"], int), np.array(rows["f"], int)
 
 
@@ -88,25 +83,26 @@ def test_npz_holds_all_attributes(result, tmp_path):
     export(tmp_path / "axis.npz")
     arrays, mesh = np.load(tmp_path / "axis.npz"), result.data
     for name in ("theta", "rho", "side"):
-        assert np.array_equal(
-            arrays[name], attribute(mesh, f"ma_{name}").astype(arrays[name].dtype)
-        )
+        found = arrays[name]
+        assert np.array_equal(found, attribute(mesh, f"ma_{name}").astype(found.dtype))
     assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
     assert arrays["generators"].shape == (len(mesh.polygons), 2)
-    source = addon("bridge.objects.output_object").source_of(result)
-    samples = world_positions(source)[
-        arrays["generators"]
-    ]  # the axis lies halfway between its generators
+    # The axis lies halfway between its generators.
+    samples = world_positions(source_of(result))[arrays["generators"]]
     first = arrays["vertices"][arrays["face_vertices"][arrays["face_offsets"][:-1]]]
     near, far = (np.linalg.norm(first - samples[:, end], axis=1) for end in (0, 1))
     np.testing.assert_allclose(near, far, rtol=1e-4)
 
 
+def source_of(result):
+    return addon("bridge.objects.output_object").source_of(result)
+
+
 def test_read_axis_is_the_computed_axis_in_float32(result):
     read = addon("bridge.axis.read_axis").read_axis(result)
-    analysis, results = addon("core.axis.compute"), addon("bridge.axis.axis_object")
-    axis = analysis.refilter(result["ma_analysis"], results.settings_of(result))
+    settings = addon("bridge.axis.axis_object").settings_of(result)
+    axis = addon("core.axis.compute").refilter(result["ma_analysis"], settings)
     for name in ("face_offsets", "face_vertices", "side", "generators", "unbounded"):
         assert np.array_equal(getattr(read, name), getattr(axis, name)), name
     for name in ("vertices", "radius", "theta", "rho"):
@@ -115,9 +111,9 @@ def test_read_axis_is_the_computed_axis_in_float32(result):
 
 
 def test_source_exports_its_result(result, tmp_path):
-    export(tmp_path / "result.off")
-    select(addon("bridge.objects.output_object").source_of(result))
-    export(tmp_path / "source.off")
+    for name, thing in (("result", result), ("source", source_of(result))):
+        select(thing)
+        export(tmp_path / f"{name}.off")
     assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
 
 
@@ -136,31 +132,25 @@ def test_result_keeps_its_scale(result, tmp_path):
     np.testing.assert_allclose(after, before, rtol=1e-5, atol=1e-6)
 
 
-def test_result_scaled_evenly_scales_its_radii(result, tmp_path):
+def test_result_scaled_evenly_scales_its_radii_and_unevenly_it_is_refused(result, tmp_path):
     result.constraints.clear()
     result.scale = (2, 2, 2)
     export(tmp_path / "axis.ma")
     vertices = read_ma(tmp_path / "axis.ma")[0]
     assert_same_points(vertices[:, :3], world_positions(result))
     np.testing.assert_allclose(vertices[:, 3], 2 * attribute(result.data, "ma_radius"), rtol=1e-5)
-
-
-def test_result_scaled_unevenly_is_refused(result, tmp_path):
-    result.constraints.clear()
     result.scale = (2, 1, 1)
-    refuse_export("scaled evenly, found scales from 1 to 2", tmp_path / "axis.ma")
+    refuse_export("scaled evenly, found scales from 1 to 2", tmp_path / "other.ma")
 
 
 def test_edited_result_is_exported_as_it_is(result, tmp_path):
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with in_edit_mode():
+        bpy.ops.mesh.select_all(action="DESELECT")
     for face in result.data.polygons[:50]:
         face.select = True
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.delete(type="FACE")
-    export(tmp_path / "axis.npz")  # still in edit mode
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with in_edit_mode():
+        bpy.ops.mesh.delete(type="FACE")
+        export(tmp_path / "axis.npz")
     arrays = np.load(tmp_path / "axis.npz")
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(result.data)))
     assert np.array_equal(arrays["rho"], attribute(result.data, "ma_rho").astype(np.float64))
@@ -168,21 +158,20 @@ def test_edited_result_is_exported_as_it_is(result, tmp_path):
 
 def test_missing_attribute_is_named(result, tmp_path):
     result.data.attributes.remove(result.data.attributes["ma_radius"])
-    refuse_export(
-        "'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again", tmp_path / "axis.ma"
-    )
-
-
-def test_nothing_to_export_says_so(tmp_path):
-    for thing in (None, link("Plain", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])):
-        select(*([thing] if thing else []))
-        refuse_export("Select a medial axis", tmp_path / "axis.ma")
+    words = "'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again"
+    refuse_export(words, tmp_path / "axis.ma")
 
 
 def test_unknown_extension_raises(result, tmp_path):
-    refuse_export(
-        r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv, found 'axis\.stl'", tmp_path / "axis.stl"
-    )
+    words = r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv, found 'axis\.stl'"
+    refuse_export(words, tmp_path / "axis.stl")
+
+
+def test_nothing_to_export_says_so(tmp_path):
+    link("Plain", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    refuse_export("Select a medial axis", tmp_path / "axis.ma")
+    select()
+    refuse_export("Select a medial axis", tmp_path / "axis.ma")
 
 
 def test_name_without_extension_takes_the_format(result, tmp_path):
@@ -217,10 +206,8 @@ def remembered(thing):
 
 
 def test_export_does_not_change_the_result(result, tmp_path):
-    def state():
-        mesh = result.data
-        return positions(mesh).tobytes(), mesh.attributes.keys(), remembered(result)
-
+    mesh = result.data
+    state = lambda: (positions(mesh).tobytes(), mesh.attributes.keys(), remembered(result))
     before = state()
     for extension in EXTENSIONS:
         export(tmp_path / f"axis{extension}")
@@ -229,11 +216,9 @@ def test_export_does_not_change_the_result(result, tmp_path):
 
 def test_menu_entry():
     draw = addon("ui.axis.export_axis").menu_func_export
-    assert draw in bpy.types.TOPBAR_MT_file_export._dyn_ui_initialize()
-    shown = {}
-    layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
-    draw(SimpleNamespace(layout=layout), bpy.context)
-    assert shown == {"export_scene.medial_axis": "Medial Axis (.ma/.ply/.obj/.off/.npz/.csv)"}
+    assert entries_of(draw, bpy.types.TOPBAR_MT_file_export) == {
+        "export_scene.medial_axis": "Medial Axis (.ma/.ply/.obj/.off/.npz/.csv)"
+    }
 
 
 @pytest.mark.parametrize(
@@ -316,23 +301,16 @@ if BEFORE_4:
     FORMATS["stl"] = ("export_mesh.stl", OLDER, "import_mesh.stl", {})
 
 
-def write_and_read(name, path):
-    """Export the selection with Blender's exporter for a format and import the file; returns the new object."""
+@pytest.mark.parametrize("name", FORMATS)
+def test_blenders_exporters_keep_the_places(result, name, tmp_path):
+    """They keep the polygons, too; those of glTF and STL cut them into triangles."""
     writer, chosen, reader, options = FORMATS[name]
-    called(writer, filepath=str(path / f"axis.{name}"), **chosen)
-    return imported(reader, path / f"axis.{name}", **options)
-
-
-@pytest.mark.parametrize("name", ["ply", "obj", "fbx"])
-def test_blenders_exporters_keep_polygons(result, name, tmp_path):
-    again = write_and_read(name, tmp_path)
-    assert np.array_equal(corner_counts(again.data), corner_counts(result.data))
-    assert len(again.data.vertices) == len(result.data.vertices)
-    assert_same_point_set(world_positions(again), world_positions(result))
-
-
-@pytest.mark.parametrize("name", ["glb", "stl"])
-def test_blenders_exporters_that_triangulate(result, name, tmp_path):
-    again = write_and_read(name, tmp_path)
-    assert len(again.data.polygons) == (corner_counts(result.data) - 2).sum()
+    path = tmp_path / f"axis.{name}"
+    called(writer, filepath=str(path), **chosen)
+    again, counts = imported(reader, path, **options), corner_counts(result.data)
+    if name in ("glb", "stl"):
+        assert len(again.data.polygons) == (counts - 2).sum()
+    else:
+        assert np.array_equal(corner_counts(again.data), counts)
+        assert len(again.data.vertices) == len(result.data.vertices)
     assert_same_point_set(world_positions(again), world_positions(result))

@@ -9,18 +9,17 @@ from pathlib import Path
 
 import pytest
 from installed import MODULE, addon, program, succeeded
-from test_cli import in_blender, walking
+from test_cli import in_blender, made_files, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"
 TEMPLATE = FARM / "medial_axis_sequence.openjd.yaml"
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PWD", str(tmp_path))
+def job_here(here):
+    """A folder with a file to compute, in which commands run."""
     walking()
-    return tmp_path
+    return here
 
 
 def expected_files(here):
@@ -29,10 +28,6 @@ def expected_files(here):
                       file=["walk.blend"])  # fmt: skip
     assert done.returncode == 0, done.stderr
     return made_files(here / "whole")
-
-
-def made_files(folder):
-    return {path.name: path.read_bytes() for path in folder.glob("*.npz")}
 
 
 # --- Open Job Description
@@ -44,16 +39,15 @@ def template():
     return yaml.safe_load(TEMPLATE.read_text(encoding="utf-8"))
 
 
-def parameters(template, **others):
+def chosen(folder):
+    """The parameters of a job with the file and the results in a folder."""
+    places = {"BlendFile": folder / "walk.blend", "OutputFolder": folder / "axes"}
+    return places | {"Object": "Body", "Options": "--rho 9", "Blender": program(), "Addon": MODULE}
+
+
+def test_openjd_commands_do_the_work(job_here, template):
     usual = {p["name"]: str(p.get("default", "")) for p in template["parameterDefinitions"]}
-    return {f"Param.{name}": value for name, value in {**usual, **others}.items()}
-
-
-def test_openjd_commands_do_the_work(here, template):
-    values = parameters(
-        template, BlendFile=str(here / "walk.blend"), OutputFolder=str(here / "axes"),
-        Object="Body", Options="--rho 9", Blender=program(), Addon=MODULE,
-    )  # fmt: skip
+    values = {f"Param.{name}": str(value) for name, value in (usual | chosen(job_here)).items()}
     (step,) = template["steps"]
     action = step["script"]["actions"]["onRun"]
     for chunk in ("1-2", "3-5:2,4"):
@@ -63,7 +57,7 @@ def test_openjd_commands_do_the_work(here, template):
             for word in (action["command"], *action["args"])
         ]
         succeeded(words)  # a worker's Blender has this profile, where the add-on is enabled
-    assert made_files(here / "axes") == expected_files(here)
+    assert made_files(job_here / "axes") == expected_files(job_here)
 
 
 def test_openjd_parameters_are_used(template):
@@ -71,9 +65,8 @@ def test_openjd_parameters_are_used(template):
     for parameter in template["parameterDefinitions"]:
         assert f"{{{{Param.{parameter['name']}}}}}" in text, parameter["name"]
     formats = next(p for p in template["parameterDefinitions"] if p["name"] == "Format")
-    assert {f".{name}" for name in formats["allowedValues"]} == set(
-        addon("core.files.write").FORMATS
-    )
+    known = set(addon("core.files.write").FORMATS)
+    assert {f".{name}" for name in formats["allowedValues"]} == known
 
 
 def openjd():
@@ -88,10 +81,8 @@ def test_openjd_template_is_valid():
     succeeded([openjd(), "check", TEMPLATE])
 
 
-def test_openjd_runs_the_job(here):
-    values = {"BlendFile": here / "walk.blend", "OutputFolder": here / "axes", "Frames": "1-5"}
-    values |= {"ChunkSize": 2, "Object": "Body", "Options": "--rho 9", "Addon": MODULE}
-    values["Blender"] = program()
+def test_openjd_runs_the_job(job_here):
+    values = {**chosen(job_here), "Frames": "1-5", "ChunkSize": 2}
     words = [word for name, value in values.items() for word in ("-p", f"{name}={value}")]
     succeeded([openjd(), "run", TEMPLATE, "--step", "MedialAxis", *words])
-    assert made_files(here / "axes") == expected_files(here)
+    assert made_files(job_here / "axes") == expected_files(job_here)

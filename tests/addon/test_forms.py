@@ -1,53 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Forms in Blender: loose edges and vertices, attributes, sliders, files that come back, words about the topology."""
 
-from pathlib import Path
-
 import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import analyses, attribute, loose_edges, positions, result_of
-from scene import added, compute, export, link, select, suzanne
+from measure import analyses, attribute, loose_edges, positions
+from scene import added, compute, export, link, press, select, suzanne
 from test_export_blender import READERS, imported
 
 
 def pair():
     """Two slabs with a rod between them: sheets at both ends, and a curve from one to the other."""
-    rings = [(-2.0, 0.6, 0.6), (-1.2, 0.6, 0.6), (-1.0, 0.1, 0.1), (1.0, 0.1, 0.1)]
-    rings += [(1.2, 0.6, 0.6), (2.0, 0.6, 0.6)]
+    rings = [(-2.0, 0.6), (-1.2, 0.6), (-1.0, 0.1), (1.0, 0.1), (1.2, 0.6), (2.0, 0.6)]
     turns = np.linspace(0, 2 * np.pi, 32, endpoint=False)
     points = [
-        (x, a * np.cos(t), (0.25 if a > 0.5 else 1.0) * b * np.sin(t))
-        for x, a, b in rings
+        (x, a * np.cos(t), (0.25 if a > 0.5 else 1.0) * a * np.sin(t))
+        for x, a in rings
         for t in turns
     ]
-    sides = [
-        (32 * i + j, 32 * i + (j + 1) % 32, 32 * (i + 1) + (j + 1) % 32, 32 * (i + 1) + j)
-        for i in range(len(rings) - 1)
-        for j in range(32)
-    ]
+    starts = range(0, 32 * len(rings) - 32, 32)
+    steps = [(j, (j + 1) % 32) for j in range(32)]
+    sides = [(i + j, i + k, i + k + 32, i + j + 32) for i in starts for j, k in steps]
     caps = [tuple(reversed(range(32))), tuple(range(32 * len(rings) - 32, 32 * len(rings)))]
     return link("Pair", points, [*sides, *caps])
 
 
 def clean(**settings):
-    compute(**{"form": "CLEAN", "sampling": "SURFACE", "samples": 6_000} | settings)
+    """The axis of a pair."""
+    usual = {"form": "CLEAN", "sampling": "SURFACE", "samples": 6_000, "smooth": False}
+    return compute(pair(), **usual | settings)
 
 
 def test_clean_is_the_default():
-    source = added("cube")
-    bpy.ops.object.medial_axis()
-    result = result_of(source)
+    added("cube")
+    result = press("medial_axis")
     assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
     assert result["ma_topology"] == "1 piece, no loop, no cavity, as the solid"
 
 
 def test_attributes_of_faces_and_of_loose_edges():
-    source = pair()
-    clean(smooth=False)
-    result = result_of(source)
-    mesh = result.data
+    mesh = clean().data
     edges = loose_edges(mesh)
     assert len(mesh.polygons) > 50 and len(edges) > 5
     limb = attribute(mesh, "ma_limb")
@@ -63,13 +56,9 @@ def test_attributes_of_faces_and_of_loose_edges():
 
 
 def test_what_is_read_back_is_what_was_computed():
-    source = pair()
-    clean(smooth=False)
-    result = result_of(source)
-    core = addon("core.axis.compute")
-    axis = core.refilter(
-        result["ma_analysis"], addon("bridge.axis.axis_object").settings_of(result)
-    )
+    result = clean()
+    settings = addon("bridge.axis.axis_object").settings_of(result)
+    axis = addon("core.axis.compute").refilter(result["ma_analysis"], settings)
     again = addon("bridge.axis.read_axis").read_axis(result)
     for name in ("face_offsets", "face_vertices", "generators", "edges", "side"):
         assert np.array_equal(getattr(again, name), getattr(axis, name)), name
@@ -82,9 +71,7 @@ def test_what_is_read_back_is_what_was_computed():
 
 
 def test_form_and_its_sliders_act_at_once_without_another_analysis():
-    source = pair()
-    clean(smooth=False)
-    result, panel, before = result_of(source), bpy.context.scene.medial_axis, analyses()
+    result, panel, before = clean(), bpy.context.scene.medial_axis, analyses()
     facets = len(result.data.polygons)
     panel.erode = 1.0
     eroded = len(result.data.polygons)
@@ -110,18 +97,16 @@ def test_form_and_its_sliders_act_at_once_without_another_analysis():
 
 
 def test_detail_of_a_curve_acts_at_once():
-    source = pair()
-    clean(samples=2_000)
-    result, panel, before = result_of(source), bpy.context.scene.medial_axis, analyses()
+    result, panel = clean(samples=2_000, smooth=True), bpy.context.scene.medial_axis
+    before = analyses()
     panel.form, panel.limb = "CURVE", 0.0
     whole = positions(result.data)
     panel.detail = 0.0
     skeleton = positions(result.data)
     assert 2 < len(skeleton) < len(whole) / 2 and tuple(result["ma_betti"]) == (1, 0, 0)
-    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
-    points = sum(len(spline.points) for spline in bpy.context.object.data.splines)
+    points = sum(len(spline.points) for spline in press("medial_axis_to_curve").data.splines)
     assert len(skeleton) <= points < len(whole) / 2, "what is seen is converted"
-    select(source)
+    select(bpy.data.objects["Pair"])
     panel.detail = 1.0
     assert np.array_equal(positions(result.data), whole) and analyses() == before
     del result["ma_detail"]  # as of a version without it
@@ -131,17 +116,10 @@ def test_detail_of_a_curve_acts_at_once():
 # --- files
 
 
-def export_axis(source, path):
-    select(result_of(source))
-    export(path)
-
-
 @pytest.mark.parametrize(("suffix", "operator", "options"), READERS)
 def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options):
-    source = pair()
-    clean(smooth=False)
-    mesh, path = result_of(source).data, tmp_path / f"axis{suffix}"
-    export_axis(source, path)
+    mesh, path = clean().data, tmp_path / f"axis{suffix}"
+    export(path)
     again = imported(operator, path, **options).data
     assert (len(again.polygons), len(again.edges)) == (len(mesh.polygons), len(mesh.edges))
     ours, theirs = positions(mesh), positions(again)
@@ -154,12 +132,10 @@ def test_importers_of_blender_read_the_edges(tmp_path, suffix, operator, options
 
 
 def test_a_sequence_plays_with_its_edges(tmp_path):
-    source = pair()
-    clean(smooth=False)
-    mesh = result_of(source).data
-    export_axis(source, tmp_path / "Pair_0001.npz")
+    mesh, path = clean().data, tmp_path / "Pair_0001.npz"
+    export(path)
     write_sequence = addon("bridge.skeleton.sequence_objects").write_sequence
-    (thing,) = write_sequence("Pair", {1: Path(tmp_path / "Pair_0001.npz")}).objects
+    (thing,) = write_sequence("Pair", {1: path}).objects
     assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0
     assert np.array_equal(positions(thing.data), positions(mesh))
     assert np.array_equal(attribute(thing.data, "ma_limb"), attribute(mesh, "ma_limb"))
@@ -169,11 +145,10 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
 @pytest.mark.parametrize("levels", [0, 2, pytest.param(3, marks=pytest.mark.slow)])
 def test_suzanne_is_one_piece(levels, smooth):
     """One click; her eyes and their sockets are open, and have sharp rims where she is not subdivided."""
-    source = suzanne(levels)
+    suzanne(levels)
     if smooth:
         bpy.ops.object.shade_smooth()
-    bpy.ops.object.medial_axis()
-    result = result_of(source)
+    result = press("medial_axis")
     assert tuple(result["ma_betti"]) == (1, 0, 0)
     assert result["ma_topology"].startswith("1 piece, no loop, no cavity")
     mesh = result.data

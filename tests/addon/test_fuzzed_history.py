@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import attribute, positions, result_of
-from scene import ellipsoid, reopened, select
+from scene import ellipsoid, move_vertices, press, reopened, select
 from support.fuzz import repeats
 
 NAME = "Source"
@@ -99,10 +99,10 @@ class History:
 
     def other(self):
         select(source())
+        operator, samples = self.rng.choice(OTHERS), self.rng.choice((300, 500))
+        few = {"sampling": "SURFACE", "samples": samples, "select_result": False}
         try:
-            getattr(bpy.ops.object, self.rng.choice(OTHERS))(
-                sampling="SURFACE", samples=self.rng.choice((300, 500)), select_result=False
-            )
+            getattr(bpy.ops.object, operator)(**few)
         except RuntimeError as error:
             assert "Traceback" not in str(error), error
         self.push()
@@ -146,9 +146,7 @@ def shape_source(thing, shape):
     if "start" not in thing:
         thing["start"] = points.ravel().tolist()
     points = np.array(thing["start"]).reshape(-1, 3) * shape
-    points += rng.normal(scale=2e-3, size=points.shape)
-    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    thing.data.update()
+    move_vertices(thing, points + rng.normal(scale=2e-3, size=points.shape))
 
 
 def modify_source(thing, modified):
@@ -182,12 +180,9 @@ def directly(shape, modified, settings):
     addon("core.machine.cache").CACHE.clear()
     reset_panel()
     select(new_source(shape, modified))
-    values = {
-        name: getattr(getattr(settings, name), "name", getattr(settings, name))
-        for name in (*CHOICES, *ANALYSED)
-    }
-    assert bpy.ops.object.medial_axis(within=0.0, **values) == {"FINISHED"}
-    return figures(result_of(source()))
+    chosen = {name: getattr(settings, name) for name in (*CHOICES, *ANALYSED)}
+    values = {name: getattr(value, "name", value) for name, value in chosen.items()}
+    return figures(press("medial_axis", within=0.0, **values))
 
 
 @pytest.mark.parametrize("seed", repeats(10))

@@ -24,30 +24,22 @@ def build(modifier, rng):
     modifier.use_reverse = rng.random() < 0.2
 
 
-def set_to(**values):
-    def apply(modifier, _rng):
-        for name, value in values.items():
-            setattr(modifier, name, value)
-
-    return apply
-
-
-# Modifiers that reorder, move, add, remove or double vertices.
+# Modifiers that reorder, move, add, remove or double vertices, with their settings.
 MODIFIERS = {
-    "BUILD": build,
-    "TRIANGULATE": set_to(),
-    "DISPLACE": set_to(strength=0.05),
-    "WELD": set_to(merge_threshold=1e-4),
-    "SUBSURF": set_to(levels=1, subdivision_type="SIMPLE"),
-    "ARRAY": set_to(count=2),
-    "MIRROR": set_to(),
-    "EDGE_SPLIT": set_to(split_angle=0.2),
-    "DECIMATE": set_to(ratio=0.6),
-    "SMOOTH": set_to(iterations=2),
-    "SOLIDIFY": set_to(thickness=0.02),
-    "CAST": set_to(factor=0.2),
-    "BEVEL": set_to(width=0.01),
-    "MASK": set_to(),
+    "BUILD": {},
+    "TRIANGULATE": {},
+    "DISPLACE": {"strength": 0.05},
+    "WELD": {"merge_threshold": 1e-4},
+    "SUBSURF": {"levels": 1, "subdivision_type": "SIMPLE"},
+    "ARRAY": {"count": 2},
+    "MIRROR": {},
+    "EDGE_SPLIT": {"split_angle": 0.2},
+    "DECIMATE": {"ratio": 0.6},
+    "SMOOTH": {"iterations": 2},
+    "SOLIDIFY": {"thickness": 0.02},
+    "CAST": {"factor": 0.2},
+    "BEVEL": {"width": 0.01},
+    "MASK": {},
 }
 
 
@@ -55,7 +47,10 @@ def stack_on(source, rng):
     for number in range(rng.randrange(4)):
         kind = rng.choice(list(MODIFIERS)) if rng.random() < 0.6 else "BUILD"
         modifier = source.modifiers.new(f"{number} {kind}", kind)
-        MODIFIERS[kind](modifier, rng)
+        for name, value in MODIFIERS[kind].items():
+            setattr(modifier, name, value)
+        if kind == "BUILD":
+            build(modifier, rng)
         modifier.show_viewport = rng.random() < 0.9
 
 

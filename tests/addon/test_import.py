@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import MODULE, addon, in_wine
-from measure import contents, positions, reports, triangles_of
+from measure import contents, entries_of, positions, reports, triangles_of
 from scene import ellipsoid, link
 from support.clouds import on_ellipsoid
 
@@ -36,6 +36,12 @@ def read(path, *more, **options):
     return operator(filepath=str(path), **options)
 
 
+def imported(path, **options):
+    """The object that the import of a file makes."""
+    assert read(path, **options) == {"FINISHED"}
+    return bpy.context.object
+
+
 def activate(collection):
     """Link a collection to the scene, and let new objects come into it."""
     bpy.context.scene.collection.children.link(collection)
@@ -49,8 +55,7 @@ def normals_of(thing):
 
 
 def test_points(folder, capfd):
-    assert read(folder / "scan.xyz") == {"FINISHED"}
-    thing = bpy.context.object
+    thing = imported(folder / "scan.xyz")
     assert (thing.name, thing.data.name, thing.type) == ("scan", "scan", "MESH")
     np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
     assert len(thing.data.edges) == len(thing.data.polygons) == 0
@@ -59,17 +64,8 @@ def test_points(folder, capfd):
     assert reports(capfd) == [("Info", "'scan': 500 points, 0 faces")]
 
 
-def test_normals(folder, capfd):
-    read(folder / "oriented.xyzn")
-    thing = bpy.context.object
-    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
-    np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-7)
-    assert reports(capfd) == [("Info", "'oriented': 500 points, 0 faces, with normals")]
-
-
 def test_faces(folder, capfd):
-    read(folder / "solid.off")
-    mesh = bpy.context.object.data
+    mesh = imported(folder / "solid.off").data
     assert triangles_of(mesh).tolist() == [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     assert len(mesh.edges) == 6 and not any(polygon.use_smooth for polygon in mesh.polygons)
     assert reports(capfd) == [("Info", "'solid': 4 points, 4 faces")]
@@ -116,10 +112,8 @@ def test_collection_of_another_file(folder):
 @pytest.mark.filterwarnings("error:.*blend relative:RuntimeWarning")
 def test_path_beside_the_blend_file(folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
-    assert bpy.ops.import_mesh.points_xyz(filepath="//scan.xyz") == {"FINISHED"}
-    assert bpy.ops.import_mesh.points_xyz(directory="//", files=[{"name": "scan.xyz"}]) == {
-        "FINISHED"
-    }
+    for words in ({"filepath": "//scan.xyz"}, {"directory": "//", "files": [{"name": "scan.xyz"}]}):
+        assert bpy.ops.import_mesh.points_xyz(**words) == {"FINISHED"}
 
 
 # --- axes and scale
@@ -128,8 +122,7 @@ def test_path_beside_the_blend_file(folder):
 @pytest.mark.parametrize("forward, up", [(f, u) for f in AXES for u in AXES if f[-1] != u[-1]])
 def test_axes(folder, forward, up):
     """The forward axis of the file becomes Y and its up axis Z; normals are rotated too."""
-    read(folder / "oriented.xyzn", axis_forward=forward, axis_up=up)
-    thing = bpy.context.object
+    thing = imported(folder / "oriented.xyzn", axis_forward=forward, axis_up=up)
     axes = {"XYZ"[i]: row for i, row in enumerate(np.identity(3))}
     axes |= {f"-{name}": -axis for name, axis in axes.items()}
     turn = np.array([np.cross(axes[forward], axes[up]), axes[forward], axes[up]])
@@ -137,19 +130,19 @@ def test_axes(folder, forward, up):
     np.testing.assert_allclose(normals_of(thing), NORMALS @ turn.T, atol=1e-7)
 
 
-def test_scale(folder):
-    read(folder / "oriented.xyzn", global_scale=0.25)
-    thing = bpy.context.object
-    np.testing.assert_array_equal(positions(thing.data), np.float32(0.25 * POINTS))
+@pytest.mark.parametrize("scale", [1.0, 0.25])
+def test_scale_and_normals(folder, scale, capfd):
+    thing = imported(folder / "oriented.xyzn", global_scale=scale)
+    np.testing.assert_array_equal(positions(thing.data), np.float32(scale * POINTS))
     np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-7)
     assert tuple(thing.scale) == (1, 1, 1)
+    assert reports(capfd) == [("Info", "'oriented': 500 points, 0 faces, with normals")]
 
 
 @pytest.mark.parametrize("forward, up", [(f, u) for f in AXES for u in AXES if f[-1] == u[-1]])
 def test_one_axis_twice(folder, forward, up):
     """Blender chooses another axis, as in its own importers."""
-    assert read(folder / "scan.xyz", axis_forward=forward, axis_up=up) == {"FINISHED"}
-    found = np.abs(positions(bpy.context.object.data))
+    found = np.abs(positions(imported(folder / "scan.xyz", axis_forward=forward, axis_up=up).data))
     np.testing.assert_array_equal(np.sort(found), np.sort(np.abs(np.float32(POINTS))))
 
 
@@ -184,22 +177,18 @@ def test_coordinates_that_blender_cannot_hold(folder):
 
 
 def test_colours_are_left_with_a_warning(folder, capfd):
-    np.savetxt(
-        folder / "coloured.xyz", np.column_stack([POINTS, 255 * np.abs(NORMALS)]), fmt="%.9g"
-    )
-    read(folder / "coloured.xyz")
+    columns = np.column_stack([POINTS, 255 * np.abs(NORMALS)])
+    np.savetxt(folder / "coloured.xyz", columns, fmt="%.9g")
+    assert normals_of(imported(folder / "coloured.xyz")) is None
     ((kind, text), _) = reports(capfd)
     assert (kind, text[:36]) == ("Warning", "'coloured': Left out 3 of 6 columns:")
-    assert normals_of(bpy.context.object) is None
 
 
 def test_faces_that_blender_cannot_hold(folder, capfd):
     """They would crash it, or its tools, later."""
     faces = "3 0 0 1\n3 2 1 0\n4 0 1 2 0\n2 0 1\n"
-    text = TETRAHEDRON.replace("4 4 0", "4 8 0") + faces
-    (folder / "odd.off").write_text(text)
-    read(folder / "odd.off")
-    mesh = bpy.context.object.data
+    (folder / "odd.off").write_text(TETRAHEDRON.replace("4 4 0", "4 8 0") + faces)
+    mesh = imported(folder / "odd.off").data
     assert not mesh.validate() and len(mesh.polygons) == 4
     told = [text for kind, text in reports(capfd) if kind == "Warning"]
     assert told == [
@@ -213,11 +202,7 @@ def test_faces_that_blender_cannot_hold(folder, capfd):
 
 def test_menu_entries():
     draw = addon("ui.axis.import_points").menu_func_import
-    assert draw in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
-    shown = {}
-    layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
-    draw(SimpleNamespace(layout=layout), bpy.context)
-    assert shown == {
+    assert entries_of(draw, bpy.types.TOPBAR_MT_file_import) == {
         "import_mesh.points_xyz": "Points (.xyz/.xyzn)",
         "import_mesh.points_off": "Object File Format (.off)",
     }
@@ -226,11 +211,9 @@ def test_menu_entries():
 def test_disabling_removes_operators_and_menu_entries():
     def present():
         entries = bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
-        return [
-            f"{MODULE}.ui.axis.import_points" in [function.__module__ for function in entries],
-            hasattr(bpy.types, "IMPORT_MESH_OT_points_xyz"),
-            hasattr(bpy.types, "IMPORT_MESH_OT_points_off"),
-        ]
+        names = [function.__module__ for function in entries]
+        kinds = [hasattr(bpy.types, f"IMPORT_MESH_OT_points_{kind}") for kind in ("xyz", "off")]
+        return [f"{MODULE}.ui.axis.import_points" in names, *kinds]
 
     assert present() == [True] * 3
     bpy.ops.preferences.addon_disable(module=MODULE)
@@ -265,9 +248,7 @@ def test_files_can_be_dropped_where_blender_takes_them():
         ("import_mesh.points_xyz", ".xyz;.xyzn"),
         ("import_mesh.points_off", ".off"),
     ]
-    for space, taken in (("VIEW_3D", True), ("OUTLINER", True), ("CONSOLE", False)):
-        area = SimpleNamespace(type=space)
+    for space, taken in (("VIEW_3D", True), ("OUTLINER", True), ("CONSOLE", False), (None, False)):
+        area = space and SimpleNamespace(type=space)
         assert made[0].poll_drop(SimpleNamespace(area=area)) == taken
-    assert not made[0].poll_drop(SimpleNamespace(area=None))
-    registered = list(module.HANDLERS)
-    assert len(registered) == (2 if hasattr(bpy.types, "FileHandler") else 0)
+    assert len(module.HANDLERS) == (2 if hasattr(bpy.types, "FileHandler") else 0)

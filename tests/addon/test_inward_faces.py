@@ -33,20 +33,23 @@ def selected(mesh):
     return tuple(polygon.index for polygon in mesh.polygons if polygon.select)
 
 
+def done_in(mode, source, action):
+    """Run the operator in a mode, in which the object stays; then it is in object mode."""
+    bpy.ops.object.mode_set(mode=mode)
+    assert inward(action) == {"FINISHED"} and source.mode == mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_select(source, mode):
-    bpy.ops.object.mode_set(mode=mode)
-    assert inward("SELECT") == {"FINISHED"} and source.mode == mode
-    bpy.ops.object.mode_set(mode="OBJECT")
+    done_in(mode, source, "SELECT")
     assert selected(source.data) == ROWS
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_turn(source, mode):
     before, looked = positions(source.data), normals(source.data)
-    bpy.ops.object.mode_set(mode=mode)
-    assert inward("TURN") == {"FINISHED"} and source.mode == mode
-    bpy.ops.object.mode_set(mode="OBJECT")
+    done_in(mode, source, "TURN")
     assert np.array_equal(positions(source.data), before)
     looked[list(ROWS)] *= -1
     assert np.allclose(normals(source.data), looked, atol=1e-6)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from installed import MODULE, addon
 from measure import analyses, medial_objects, watched
-from scene import compute, ellipsoid, refuse, select
+from scene import compute, ellipsoid, refuse
 
 
 def task(count=60_000, name="Cloud"):
@@ -24,9 +24,8 @@ def task(count=60_000, name="Cloud"):
 def task_of(name, points):
     """The task that the operator makes for a cloud of points."""
     none, settings = np.zeros((0, 3), np.int32), addon("core.settings").Settings()
-    return addon("core.machine.job").Task(
-        name, partial(addon("core.axis.compute").compute, points, none, settings)
-    )
+    work = partial(addon("core.axis.compute").compute, points, none, settings)
+    return addon("core.machine.job").Task(name, work)
 
 
 def threads():
@@ -61,11 +60,10 @@ def test_a_draft_comes_first_and_the_stages_have_four_words():
 
 
 def test_job_gives_what_the_script_way_gives():
-    one = task(3_000)
-    job = addon("core.machine.job").Job([one])
-    mine = job.outcomes()[0].value.axis
+    one, jobs = task(3_000), addon("core.machine.job")
+    mine = jobs.Job([one]).outcomes()[0].value.axis
     addon("core.machine.cache").CACHE.clear()
-    other = addon("core.machine.job").run_task(one).value.axis
+    other = jobs.run_task(one).value.axis
     names = ("vertices", "radius", "face_offsets", "face_vertices")
     for name in (*names, "theta", "rho", "side", "generators"):
         assert getattr(mine, name).tobytes() == getattr(other, name).tobytes()
@@ -93,56 +91,59 @@ def test_an_error_belongs_to_its_task():
 
 
 def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
-    wrong = addon("core.machine.job").Task("Wrong", None)
+    jobs = addon("core.machine.job")
     with pytest.raises(TypeError):
-        addon("core.machine.job").Job([wrong]).outcomes()
+        jobs.Job([jobs.Task("Wrong", None)]).outcomes()
 
 
 def test_second_run_is_refused_while_one_runs():
     ellipsoid()
-    running = addon("ui.base.current_job")
-    job = running.start([task(300_000)], "medial axis")
+    job = start()
     refuse("A medial axis is being computed", "object.medial_axis")
     assert bpy.context.window_manager.medial_axis_progress.percentage >= 0
     bpy.ops.object.medial_axis_cancel()
     wait(job)
-    running.stop()
+    addon("ui.base.current_job").stop()
     compute()
     refuse("Nothing is being computed", "medial_axis_cancel")
+
+
+def start():
+    """A job that takes long, as a click begins it."""
+    return addon("ui.base.current_job").start([task(300_000)], "medial axis")
 
 
 def test_sliders_rest_while_a_job_runs():
     result = compute(ellipsoid())
     count = len(result.data.polygons)
-    addon("ui.base.current_job").start([task(300_000)], "medial axis")
+    start()
     bpy.context.scene.medial_axis.theta = 1.2
     assert len(result.data.polygons) == count
     addon("ui.base.current_job").stop()
 
 
 def test_loading_a_file_stops_the_job_and_forgets_analyses():
-    ellipsoid()
-    compute()
-    assert len(addon("core.machine.cache").CACHE) == 1
-    addon("ui.base.current_job").start([task(300_000)], "medial axis")
+    compute(ellipsoid())
+    cache = addon("core.machine.cache").CACHE
+    assert len(cache) == 1
+    start()
     assert threads()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     assert threads() == [] and addon("ui.base.current_job").job() is None
-    assert len(addon("core.machine.cache").CACHE) == 0 and medial_objects() == []
+    assert len(cache) == 0 and medial_objects() == []
 
 
 def test_disabling_the_addon_stops_the_job():
-    addon("ui.base.current_job").start([task(300_000)], "medial axis")
+    start()
     bpy.ops.preferences.addon_disable(module=MODULE)
     assert threads() == []
     bpy.ops.preferences.addon_enable(module=MODULE)
 
 
-def test_source_deleted_before_the_result_is_written(capfd):
+def test_source_deleted_before_the_result_is_written():
     source = ellipsoid()
-    found = addon("ui.axis.selected_sources").Source(
-        source.name, getattr(source, "session_uid", None), None, None
-    )
+    uid = getattr(source, "session_uid", None)
+    found = addon("ui.axis.selected_sources").Source(source.name, uid, None, None)
     assert found.find() == source
     bpy.data.objects.remove(source)
     assert found.find() is None
@@ -150,16 +151,14 @@ def test_source_deleted_before_the_result_is_written(capfd):
 
 def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
     native = addon("core.machine.native")
-    expected = native.expected_abi()
-    (tmp_path / "_medial.cpython-399-x86_64-linux-gnu.so").write_bytes(b"")
+    found = "cpython-399-x86_64-linux-gnu"
+    sentence = f"Expected the compiled module for {native.expected_abi()}, found {found}; install"
+    (tmp_path / f"_medial.{found}.so").write_bytes(b"")
     monkeypatch.setattr(native, "_module", None)
     monkeypatch.setattr(native, "LIB", tmp_path)
-    sentence = (
-        f"Expected the compiled module for {expected}, found cpython-399-x86_64-linux-gnu; install"
-    )
     with pytest.raises(addon("core.errors").NativeModuleError, match=sentence):
         native.load()
-    select(ellipsoid())
+    ellipsoid()
     refuse(sentence, "object.medial_axis")
     monkeypatch.setattr(native, "LIB", tmp_path / "nowhere")
     assert "found none" in native.problem()
@@ -167,13 +166,15 @@ def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
 
 def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
     native = addon("core.machine.native")
-    monkeypatch.setattr(native, "_module", None)
-    monkeypatch.setattr(native, "_failure", "")
-    monkeypatch.setattr(native, "NAME", "_absent")
-    monkeypatch.setattr(native, "LIB", tmp_path)
+    for name, value in {
+        "_module": None,
+        "_failure": "",
+        "NAME": "_absent",
+        "LIB": tmp_path,
+    }.items():
+        monkeypatch.setattr(native, name, value)
     (tmp_path / f"_absent{EXTENSION_SUFFIXES[0]}").write_bytes(b"not a library")
-    with pytest.raises(
-        addon("core.errors").NativeModuleError, match=r"Expected .* that loads, but the system says"
-    ):
+    words = r"Expected .* that loads, but the system says"
+    with pytest.raises(addon("core.errors").NativeModuleError, match=words):
         native.load()
     assert "that loads" in native.problem(), "the panel must not try again at every draw"

@@ -9,10 +9,11 @@ import pytest
 from installed import addon
 from mathutils import Matrix
 from measure import attribute, evaluated, medial_objects, positions, result_of, world_positions
-from scene import added, compute, ellipsoid, export, link, ring, select, suzanne, torus
+from scene import added, compute, ellipsoid, export, link, press, ring, select, suzanne, torus
 from support.messy import crossing_plates
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
+REPORT = "medial_axis_sampling_report"
 
 
 def colours_of(mesh):
@@ -31,39 +32,36 @@ def colours_of(mesh):
 def test_one_heat_map_is_seen_at_a_time(dense):
     """Thin is warm in both, and the legend is that of the one that was asked for last."""
     heat, of = addon("bridge.thickness.heat_map"), addon("bridge.thickness.thickness_object")
+    panel, few = bpy.context.scene.medial_axis, {"select_result": False, "samples": 2_000}
     source = ellipsoid(segments=5 if dense else 2)
-    bpy.ops.object.medial_axis(select_result=False, samples=2_000)
+    press("medial_axis", **few)
     axis = result_of(source)
     radius, warm = attribute(axis.data, "ma_radius"), colours_of(axis.data)[:, 0]
     assert warm[radius.argmin()] > 0.9 > 0.2 > warm[radius.argmax()]
-    bpy.ops.object.medial_axis_thickness(select_result=False, samples=2_000)
+    press("medial_axis_thickness", **few)
     carrier = of.carrier_of(source)
     assert (carrier == source) == dense
     assert not axis.visible_get() and heat.shown_heat(axis) == carrier
-    bpy.ops.object.medial_axis(select_result=False, samples=2_000)
+    press("medial_axis", **few)
     assert axis.visible_get() and heat.shown_heat(axis) is None
     if dense:
         assert not colours_of(source.data)[:, :3].std() and source.visible_get()
     else:
         assert not carrier.visible_get()
-    bpy.ops.object.medial_axis_thickness(select_result=False, samples=2_000)
-    bpy.context.scene.medial_axis.simplify = 0.01  # a slider shows what it changes
+    press("medial_axis_thickness", **few)
+    panel.simplify = 0.01  # a slider shows what it changes
     assert axis.visible_get() and heat.shown_heat(axis) is None
-    bpy.context.scene.medial_axis.property_unset("simplify")
 
 
 def test_a_constant_radius_is_one_figure(monkeypatch):
     figures, drawn = addon("ui.axis.figures"), []
-    source = added("uv_sphere")
-    compute(**EVEN)
-    monkeypatch.setattr(
-        figures, "draw_legend", lambda _layout, *ends, **_turned: drawn.append(ends)
-    )
+    result = compute(added("uv_sphere"), **EVEN)
+    draw = lambda _layout, *ends, **_turned: drawn.append(ends)
+    monkeypatch.setattr(figures, "draw_legend", draw)
     monkeypatch.setattr(figures, "shows_colours", lambda _space: True)
     layout = SimpleNamespace(column=lambda: SimpleNamespace())
-    for radii in ((0.99999, 1.0), (0.4, 1.0)):
-        result = result_of(source)
-        result["ma_radius_min"], result["ma_radius_max"] = radii
+    for low in (0.99999, 0.4):
+        result["ma_radius_min"], result["ma_radius_max"] = low, 1.0
         figures._draw_legend(bpy.context, layout, result)
     assert [bool(low) for low, _ in drawn] == [False, True] and drawn[0][1] == drawn[1][1]
 
@@ -71,9 +69,8 @@ def test_a_constant_radius_is_one_figure(monkeypatch):
 def test_a_note_is_told_with_its_object():
     properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
     flat, other = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), ellipsoid()
-    select(flat)
     with pytest.raises(RuntimeError):
-        bpy.ops.object.medial_axis()
+        press("medial_axis", flat)
     (note,) = properties.note_of(bpy.context)
     assert note.startswith("'Flat'")
     select(other)
@@ -99,27 +96,20 @@ def test_result_is_coloured_by_radius():
     assert tuple(result.color) == pytest.approx(addon("bridge.mesh.material").FLAT)
 
 
-def test_colours_follow_the_sliders():
-    source = ellipsoid()
-    compute(**EVEN)
-    select(source)
-    bpy.context.scene.medial_axis.form = "PUBLISHED"
-    bpy.context.scene.medial_axis.theta = 1.2
-    result = result_of(source)
+def test_colours_follow_the_sliders_unless_scripts_turn_them_off():
+    source, panel = ellipsoid(), bpy.context.scene.medial_axis
+    result = compute(select_result=False, **EVEN)
+    panel.form, panel.theta = "PUBLISHED", 1.2
     assert len(colours_of(result.data)) == len(result.data.vertices)
-    bpy.context.scene.medial_axis.property_unset("theta")
-
-
-def test_scripts_turn_colours_off():
-    ellipsoid()
-    result = compute(colours=False, **EVEN)
+    bpy.data.objects.remove(result)
+    result = compute(source, colours=False, **EVEN)
     assert "ma_color" not in result.data.attributes
     assert addon("bridge.mesh.colours").colour_range(result) is None
 
 
 def test_report_is_coloured_by_epsilon():
     source = ellipsoid()
-    assert bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN) == {"FINISHED"}
+    press(REPORT, target="COPY", **EVEN)
     report = addon("bridge.axis.report_object").report_of(source)
     epsilon = attribute(report.data, "ma_epsilon")
     expected = addon("core.axis.colours").colours(epsilon, 0.0, 0.5)
@@ -130,26 +120,22 @@ def test_report_is_coloured_by_epsilon():
 def test_report_lies_on_a_source_that_can_show_it_and_beside_one_that_cannot():
     fine, coarse = ellipsoid(segments=4), suzanne(levels=1)
     for source in (fine, coarse):
-        select(source)
-        assert bpy.ops.object.medial_axis_sampling_report(**EVEN) == {"FINISHED"}
+        press(REPORT, source, **EVEN)
     report_of = addon("bridge.axis.report_object").report_of
     assert report_of(fine) is None and report_of(coarse) is not None
     assert "ma_epsilon" in fine.data.attributes and len(colours_of(fine.data))
     assert "ma_epsilon" not in coarse.data.attributes
     select(fine)
     assert addon("ui.settings.properties").shown_report(bpy.context) == fine
-    compute(**EVEN)  # a source with a report is still a source
-    assert result_of(fine) is not None
+    assert compute(**EVEN) is not None, "a source with a report is still a source"
 
 
 def test_report_leaves_the_render_colours_of_a_source_alone():
-    source = ellipsoid(segments=4)
-    mine = source.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
-    source.data.color_attributes.render_color_index = 0
-    assert bpy.ops.object.medial_axis_sampling_report(**EVEN) == {"FINISHED"}
-    found = source.data.color_attributes
+    found = ellipsoid(segments=4).data.color_attributes
+    found.new("Mine", "BYTE_COLOR", "CORNER")
+    found.render_color_index = 0
+    press(REPORT, **EVEN)
     assert found.active_color.name == "ma_color" and found[found.render_color_index].name == "Mine"
-    assert mine is not None
 
 
 # --- selection
@@ -185,16 +171,12 @@ def test_scripts_turn_following_off_and_an_artists_parent_stays():
     source = ellipsoid()
     result = compute(parent=False, **EVEN)
     assert result.parent is None
-    empty = bpy.data.objects.new("Mine", None)
+    empty = result.parent = bpy.data.objects.new("Mine", None)
     bpy.context.scene.collection.objects.link(empty)
-    result.parent = empty
-    compute(source, **EVEN)
-    assert result.parent == empty
+    assert compute(source, **EVEN).parent == empty
     result.parent = None
-    compute(source, **EVEN)
-    assert result.parent == source
-    compute(source, parent=False, **EVEN)
-    assert result.parent is None
+    assert compute(source, **EVEN).parent == source
+    assert compute(source, parent=False, **EVEN).parent is None
     bpy.context.view_layer.update()
     assert np.allclose(np.array(result.matrix_world), np.identity(4))
 
@@ -210,9 +192,9 @@ def test_a_source_that_goes_leaves_its_result_where_it_was():
 
 
 def test_a_flat_source_carries_nothing():
-    follow = addon("bridge.objects.output_object").follow
     source, other = ellipsoid("One"), ellipsoid("Two")
-    follow(other, source, Matrix.Diagonal((1, 1, 0, 1)), True)
+    flat = Matrix.Diagonal((1, 1, 0, 1))
+    addon("bridge.objects.output_object").follow(other, source, flat, True)
     assert other.parent is None
 
 
@@ -230,16 +212,14 @@ def test_an_axis_stays_visible_beside_its_hidden_source():
 
 def test_panel_finds_the_axis_of_whatever_is_selected():
     source = ellipsoid()
-    bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN)
-    bpy.ops.object.tight_cocone_surface()
-    compute(source, **EVEN)
+    press(REPORT, target="COPY", **EVEN)
+    press("tight_cocone_surface")
+    axis = compute(source, **EVEN)
     report = addon("bridge.axis.report_object").report_of(source)
     surface = addon("bridge.surface_object").surface_of(source)
-    for thing in (source, result_of(source), report, surface):
-        if thing is None:
-            continue
+    for thing in filter(None, (source, axis, report, surface)):
         select(thing)
-        assert addon("ui.settings.properties").shown_result(bpy.context) == result_of(source)
+        assert addon("ui.settings.properties").shown_result(bpy.context) == axis
 
 
 # --- the outer axis and small pieces
@@ -260,15 +240,13 @@ def test_outer_axis_is_not_in_front_and_stays_near():
 
 def test_shards_of_an_outer_axis_are_hidden_but_not_as_published():
     """The panel hides them live, too."""
-    source = suzanne(levels=0)
-    compute(side="OUTER", form="PUBLISHED", within=0.0)
-    result, panel = result_of(source), bpy.context.scene.medial_axis
+    source, panel = suzanne(levels=0), bpy.context.scene.medial_axis
+    result = compute(side="OUTER", form="PUBLISHED", within=0.0)
     pieces, facets = result["ma_pieces"], len(result.data.polygons)
     assert result["ma_hidden"] == 0
-    compute(source, side="OUTER", form="CLEAN", within=0.0)
+    compute(source, side="OUTER", form="CLEAN", within=0.0, select_result=False)
     assert 1 <= result["ma_pieces"] < pieces
     assert len(result.data.polygons) + result["ma_hidden"] == facets
-    select(source)
     panel.side, panel.within, panel.crumbs = "OUTER", 0.0, 0.0
     assert result["ma_pieces"] == pieces
     panel.crumbs = 1.0
@@ -295,8 +273,11 @@ def wires_on(result):
 
 def curve_of_a_torus():
     source = torus()
-    compute(form="CURVE")
-    return source, result_of(source)
+    return source, compute(form="CURVE")
+
+
+def height_of(mesh):
+    return np.ptp(positions(mesh)[:, 2])
 
 
 def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
@@ -314,54 +295,11 @@ def test_wires_are_as_thin_as_wanted():
     inputs = addon("bridge.nodes.inputs")
     for width in (0.001, 0.05):
         inputs.set_inputs(wires_on(result), {"Width": width})
-        bpy.context.view_layer.update()
-        height = np.ptp(positions(evaluated(result))[:, 2])
-        assert height == pytest.approx(np.ptp(positions(result.data)[:, 2]) + 2 * width, abs=0.01)
+        expected = height_of(result.data) + 2 * width
+        assert height_of(evaluated(result)) == pytest.approx(expected, abs=0.01)
     compute(source, form="CURVE", theta=0.5)
     kept = inputs.input_of(wires_on(result), "Width")
     assert kept == pytest.approx(0.05), "what the artist chose stays"
-
-
-def test_no_tube_is_thicker_than_a_fifth_of_the_ball_of_the_axis_and_single_points_are_as_thick():
-    _, result = curve_of_a_torus()
-    inputs = addon("bridge.nodes.inputs")
-    inputs.set_inputs(wires_on(result), {"Width": 100.0})
-    radius = attribute(result.data, "ma_radius")
-    height = np.ptp(positions(evaluated(result))[:, 2])
-    assert height <= np.ptp(positions(result.data)[:, 2]) + 2.001 * radius.max() / 5
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
-    size = np.ptp(positions(evaluated(compute(form="CLEAN"))), axis=0)
-    assert size == pytest.approx([0.4, 0.4, 0.4], rel=0.02)
-
-
-def test_wires_end_in_balls():
-    """A tube along a straight axis is longer than that by its own radius at both ends."""
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=0.1, depth=4.0)
-    compute(form="CURVE", sampling="SURFACE", samples=4_000)
-    result = bpy.context.object
-    width = addon("bridge.nodes.inputs").input_of(wires_on(result), "Width")
-    radius = attribute(result.data, "ma_radius")
-    ends = np.argsort(positions(result.data)[:, 2])[[0, -1]]
-    longer = np.minimum(width, 0.2 * radius[ends]).sum()
-    long = np.ptp(positions(evaluated(result))[:, 2])
-    assert long == pytest.approx(np.ptp(positions(result.data)[:, 2]) + longer, rel=1e-3)
-
-
-def test_lone_points_are_counted_and_shown_on_demand():
-    """A ball beside a block: its axis is a point, which is shown where there is nothing else."""
-    ball = added("ico_sphere", subdivisions=3)
-    compute(form="CLEAN")
-    assert len(evaluated(result_of(ball)).polygons) and not result_of(ball)["ma_lone_points_hidden"]
-    block = link("Block", *crossing_plates())
-    ball.location, block.location = (9, 0, 0), (0, 0, 0)
-    select(ball, block)
-    bpy.context.view_layer.objects.active = block
-    bpy.ops.object.join()
-    settings = {"form": "CLEAN", "sampling": "SURFACE", "samples": 3000}
-    for shown in (False, True):
-        result = compute(block, lone_points=shown, **settings)
-        far = positions(evaluated(result))[:, 0].max() > 9.01
-        assert far == shown and (result["ma_lone_points_hidden"] == 0) == shown
 
 
 def test_many_wires_have_tubes_of_few_sides_or_none():
@@ -376,6 +314,41 @@ def test_many_wires_have_tubes_of_few_sides_or_none():
     assert not len(evaluated(result).polygons) and len(evaluated(result).edges) == edges
     compute(source, form="CURVE", theta=0.5)
     assert inputs.input_of(wires_on(result), "Sides") == 0, "what the artist chose stays"
+
+
+def test_no_tube_is_thicker_than_a_fifth_of_the_ball_of_the_axis_and_single_points_are_as_thick():
+    _, result = curve_of_a_torus()
+    addon("bridge.nodes.inputs").set_inputs(wires_on(result), {"Width": 100.0})
+    most = 2.001 * attribute(result.data, "ma_radius").max() / 5
+    assert height_of(evaluated(result)) <= height_of(result.data) + most
+    added("ico_sphere", subdivisions=3)
+    size = np.ptp(positions(evaluated(compute(form="CLEAN"))), axis=0)
+    assert size == pytest.approx([0.4, 0.4, 0.4], rel=0.02)
+
+
+def test_wires_end_in_balls():
+    """A tube along a straight axis is longer than that by its own radius at both ends."""
+    added("cylinder", vertices=64, radius=0.1, depth=4.0)
+    result = compute(form="CURVE", sampling="SURFACE", samples=4_000)
+    width = addon("bridge.nodes.inputs").input_of(wires_on(result), "Width")
+    ends = np.argsort(positions(result.data)[:, 2])[[0, -1]]
+    longer = np.minimum(width, 0.2 * attribute(result.data, "ma_radius")[ends]).sum()
+    long = height_of(evaluated(result))
+    assert long == pytest.approx(height_of(result.data) + longer, rel=1e-3)
+
+
+def test_lone_points_are_counted_and_shown_on_demand():
+    """A ball beside a block: its axis is a point, which is shown where there is nothing else."""
+    ball = added("ico_sphere", subdivisions=3)
+    axis = compute(form="CLEAN")
+    assert len(evaluated(axis).polygons) and not axis["ma_lone_points_hidden"]
+    block = link("Block", *crossing_plates())
+    ball.location = (9, 0, 0)
+    press("join", block, ball)
+    for shown in (False, True):
+        result = compute(block, lone_points=shown, form="CLEAN", sampling="SURFACE", samples=3000)
+        far = positions(evaluated(result))[:, 0].max() > 9.01
+        assert far == shown and (result["ma_lone_points_hidden"] == 0) == shown
 
 
 def test_crumbs_are_hidden_and_counted():
@@ -401,12 +374,10 @@ def test_a_modifier_that_was_removed_stays_away_and_comes_with_new_wires():
     result.modifiers.remove(wires_on(result))
     compute(source, form="CURVE", theta=0.5)
     assert wires_on(result) is None
-    compute(source, form="PUBLISHED")
-    assert wires_on(result) is None and result["ma_wires"] == 0
-    compute(source, form="CURVE")
-    assert wires_on(result) is not None
-    compute(source, form="PUBLISHED")
-    assert wires_on(result) is None
+    for form in ("PUBLISHED", "CURVE", "PUBLISHED"):
+        compute(source, form=form)
+        assert (wires_on(result) is not None) == (form == "CURVE")
+        assert form == "CURVE" or result["ma_wires"] == 0
 
 
 def test_one_node_group_for_all():
@@ -440,11 +411,9 @@ def test_show_colours_goes_and_comes_back():
 
 
 def test_computing_changes_no_shading():
-    _, area = viewport()
-    shading = area.spaces.active.shading
+    shading = viewport()[1].spaces.active.shading
     before = shading.type, shading.color_type
-    ellipsoid()
-    compute(**EVEN)
+    compute(ellipsoid(), **EVEN)
     assert (shading.type, shading.color_type) == before
 
 
@@ -496,19 +465,15 @@ def add_child():
     add_circle().parent = parent
 
 
-def add_text():
-    added("object.text", location=(1, 1, 1)).data.extrude = 0.1
-
-
 KINDS = {
-    "mesh": lambda: bpy.ops.mesh.primitive_torus_add(location=(1, 2, 3)),
+    "mesh": lambda: added("torus", location=(1, 2, 3)),
     "circle": add_circle,
     "bezier": add_bezier,
     "animated path": add_path_that_is_animated,
     "child": add_child,
-    "text": add_text,
-    "metaball": lambda: bpy.ops.object.metaball_add(location=(2, 0, 0)),
-    "surface": lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(location=(0, 3, 0)),
+    "text": lambda: setattr(added("object.text", location=(1, 1, 1)).data, "extrude", 0.1),
+    "metaball": lambda: added("object.metaball", location=(2, 0, 0)),
+    "surface": lambda: added("surface.nurbs_surface_torus", location=(0, 3, 0)),
 }
 
 
@@ -540,7 +505,7 @@ def test_results_lie_within_their_source_whatever_its_type(kind, operator):
     KINDS[kind]()
     source = bpy.context.object
     low, high = world_box(source)
-    getattr(bpy.ops.object, operator)(samples=1500, sampling="SURFACE")
+    press(operator, **EVEN)
     results = (t for t in bpy.data.objects if t.get("ma_source") == source)
     made = next(
         results, source
@@ -554,8 +519,8 @@ def test_results_lie_within_their_source_whatever_its_type(kind, operator):
 
 def test_a_moved_curve_takes_its_axis_along():
     source = add_circle()
-    bpy.ops.object.medial_axis(samples=1500, sampling="SURFACE")
-    (made,) = (t for t in bpy.data.objects if t.get("ma_source") == source)
+    made = press("medial_axis", **EVEN)
+    assert made["ma_source"] == source
     before = world_box(made)
     source.location.x += 5.0
     assert np.allclose(world_box(made) - before, (5, 0, 0), atol=1e-4)

@@ -4,8 +4,8 @@
 import bpy
 import pytest
 from installed import MODULE, addon
-from measure import analyses, reports, result_of
-from scene import compute, compute_or_not, ellipsoid, refuse, scan, select
+from measure import analyses, reports
+from scene import compute, ellipsoid, press, refuse, scan
 from support.clouds import on_ellipsoid
 from test_registration import assert_shows
 
@@ -40,18 +40,14 @@ def tight(monkeypatch):
 
 
 def test_preferences_are_what_settings_say():
-    settings = addon("core.settings")
-    for name, option in {
-        "cache_size": settings.CACHE_SIZE,
-        **addon("core.machine.memory_limit").LIMITS,
-    }.items():
+    size, limits = addon("core.settings").CACHE_SIZE, addon("core.machine.memory_limit").LIMITS
+    for name, option in {"cache_size": size, **limits}.items():
         assert_shows(preferences().bl_rna.properties[name], option)
-    assert cache().room == settings.CACHE_SIZE.default * MEGABYTE
+    assert cache().room == size.default * MEGABYTE
 
 
 def test_smaller_cache_forgets_at_once():
-    ellipsoid()
-    compute()
+    compute(ellipsoid())
     assert cache().bytes > 0
     preferences().cache_size = 0
     assert cache().bytes == len(cache()) == 0
@@ -63,10 +59,9 @@ def test_smaller_cache_forgets_at_once():
 
 def test_saved_preferences_hold_from_the_first_computation():
     """Blender sets saved values without calling `update`."""
-    ellipsoid()
     preferences().cache_size = 0
     cache().room = MEGABYTE << 10
-    compute()
+    compute(ellipsoid())
     assert cache().room == 0 and len(cache()) == 0
 
 
@@ -81,8 +76,7 @@ def test_kept_analyses_are_freed_on_demand(capfd):
 
 
 def test_kept_analyses_are_freed_with_the_addon():
-    ellipsoid()
-    compute()
+    compute(ellipsoid())
     old = cache()
     bpy.ops.preferences.addon_disable(module=MODULE)
     assert len(old) == 0
@@ -110,11 +104,10 @@ def test_limit_of_the_preferences_refuses():
 
 @pytest.mark.parametrize("operator", ["medial_axis", "tight_cocone_surface"])
 def test_clouds_are_thinned(tight, capfd, operator):
-    source = scan()
+    scan()
     preferences().above_limit = "THIN"
     reports(capfd)
-    assert getattr(bpy.ops.object, operator)() == {"FINISHED"}
-    made = next(thing for thing in bpy.data.objects if thing is not source)
+    made = press(operator)
     assert 500 < made["ma_points"] <= 1500
     kept = f"{made['ma_points']:,} of the 2,000 points, evenly spread, were kept"
     assert kept in made["ma_warnings"]
@@ -126,38 +119,33 @@ def test_surfaces_are_thinned(tight):
     assert len(source.data.vertices) > 1500
     refuse("fits into the free memory")
     preferences().above_limit = "THIN"
-    assert compute_or_not() == {"FINISHED"}
-    result = result_of(source)
+    result = compute()
     assert result["ma_points"] <= 1500 and result["ma_sampling"] == "SURFACE"
     assert "samples of the surface were taken" in result["ma_warnings"]
 
 
 def test_reports_of_the_sampling_have_the_limit(tight):
-    select(ellipsoid(segments=5))
+    ellipsoid(segments=5)
     refuse("fits into the free memory", "medial_axis_sampling_report", sampling="SURFACE")
     preferences().above_limit = "THIN"
-    assert bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE") == {"FINISHED"}
+    press("medial_axis_sampling_report", sampling="SURFACE")
 
 
 def test_sequences_have_the_limit(tight, tmp_path):
     scan()
-    refuse(
-        "Expected results of 1 frames, found none",
-        "medial_axis_sequence",
-        directory=str(tmp_path),
-        frames="1",
-    )
+    operator, options = "medial_axis_sequence", {"directory": str(tmp_path), "frames": "1"}
+    refuse("Expected results of 1 frames, found none", operator, **options)
     preferences().above_limit = "THIN"
-    done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
-    assert done == {"FINISHED"} and len(list(tmp_path.glob("*.npz"))) == 1
+    press(operator, **options)
+    assert len(list(tmp_path.glob("*.npz"))) == 1
 
 
 def test_other_thresholds_of_what_was_thinned_are_found_in_the_cache(tight):
-    source = scan()
+    source, panel = scan(), bpy.context.scene.medial_axis
     preferences().above_limit = "THIN"
     compute()
     before = analyses()
-    bpy.context.scene.medial_axis.rho = 4.0
-    assert bpy.context.scene.medial_axis.note == ""
+    panel.rho = 4.0
+    assert panel.note == ""
     compute(source, rho=3.0)
     assert analyses() == before

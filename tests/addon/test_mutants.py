@@ -28,10 +28,7 @@ ATTRIBUTES = {
 }
 
 
-def blocks():
-    """The first is always run."""
-    for start in range(0, COUNT, BLOCK):
-        yield pytest.param(start, marks=[pytest.mark.slow] if start else [])
+STARTS = [0, *(pytest.param(start, marks=pytest.mark.slow) for start in range(BLOCK, COUNT, BLOCK))]
 
 
 @pytest.fixture
@@ -47,7 +44,7 @@ def little_memory():
     resource.setrlimit(resource.RLIMIT_AS, limits)
 
 
-@pytest.mark.parametrize("start", blocks())
+@pytest.mark.parametrize("start", STARTS)
 def test_mutants(start, little_memory):
     wrong, finished = [], 0
     for seed in range(start, start + BLOCK):

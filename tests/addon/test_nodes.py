@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 import pytest
 from installed import MODULE, addon, program, succeeded
-from measure import attribute, evaluated, result_of, volume
-from scene import compute, ellipsoid, link, refuse, select, torus
+from measure import attribute, evaluated, instances, positions, volume
+from scene import compute, ellipsoid, link, press, refuse, torus, with_radii
 
 KEYS = ("FILTER", "BALLS", "REBUILD", "COLOUR")
 
@@ -20,25 +20,12 @@ def groups():
 def with_group(thing, key, **values):
     """A modifier of the group on an object, with values of its inputs by name."""
     modifier = groups().add_modifier(thing, key)
-    named = {name.replace("_", " "): value for name, value in values.items()}
-    addon("bridge.nodes.inputs").set_inputs(modifier, named)
+    set_inputs(modifier, **{name.replace("_", " "): value for name, value in values.items()})
     return modifier
 
 
-def instances(thing):
-    """(matrices' scales) of what an object instances."""
-    bpy.context.view_layer.update()
-    graph = bpy.context.evaluated_depsgraph_get()
-    return [
-        one.matrix_world.to_scale().x
-        for one in graph.object_instances
-        if one.is_instance and one.parent.original == thing
-    ]
-
-
-def axis_of(source, **settings):
-    compute(**settings)
-    return result_of(source)
+def set_inputs(modifier, **values):
+    addon("bridge.nodes.inputs").set_inputs(modifier, values)
 
 
 # --- every group
@@ -73,14 +60,13 @@ def test_a_value_of_an_input_is_read_back():
     [(np.pi / 8, 8.0, "ANGLE_OR_RATIO"), (np.pi / 6, 0.0, "ANGLE"), (0.0, 5.0, "RATIO")],
 )
 def test_filter_selects_what_the_thresholds_select(theta, rho, criteria):
-    source = torus()
-    compute(theta=theta, rho=rho, criteria=criteria, side="INNER")
-    expected = len(result_of(source).data.polygons)
-    result = compute(theta=0.0, rho=0.0, side="INNER")
+    result = compute(torus(), theta=theta, rho=rho, criteria=criteria, side="INNER")
+    expected = len(result.data.polygons)
+    compute(theta=0.0, rho=0.0, side="INNER")
     everything = len(result.data.polygons)
     modifier = with_group(result, "FILTER")
     assert len(evaluated(result).polygons) == everything
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Theta": theta, "Rho": rho})
+    set_inputs(modifier, Theta=theta, Rho=rho)
     mesh = evaluated(result)
     assert len(mesh.polygons) == expected < everything
     assert len(mesh.vertices) == len({v for face in mesh.polygons for v in face.vertices})
@@ -88,26 +74,22 @@ def test_filter_selects_what_the_thresholds_select(theta, rho, criteria):
 
 
 def test_filter_by_sheet_erosion_and_radius():
-    source = ellipsoid()
-    result = axis_of(source, form="CLEAN", side="INNER")
-    values = {name: attribute(result.data, name) for name in ("ma_sheet", "ma_erosion")}
+    result = compute(ellipsoid(), form="CLEAN", side="INNER")
     modifier = with_group(result, "FILTER")
-    for label, name in (("Sheet", "ma_sheet"), ("Erosion", "ma_erosion")):
-        limit = float(np.median(values[name]))
-        addon("bridge.nodes.inputs").set_inputs(
-            modifier, {"Sheet": 0.0, "Erosion": 0.0, label: limit}
-        )
-        assert len(evaluated(result).polygons) == (values[name] >= np.float32(limit)).sum()
+    for label in ("Sheet", "Erosion"):
+        values = attribute(result.data, f"ma_{label.lower()}")
+        limit = float(np.median(values))
+        set_inputs(modifier, **{"Sheet": 0.0, "Erosion": 0.0, label: limit})
+        assert len(evaluated(result).polygons) == (values >= np.float32(limit)).sum()
     radius = attribute(result.data, "ma_radius")
     mean = np.array([radius[list(face.vertices)].mean() for face in result.data.polygons])
     limit = float(np.median(mean)) * 1.001
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Erosion": 0.0, "Radius": limit})
+    set_inputs(modifier, Erosion=0.0, Radius=limit)
     assert len(evaluated(result).polygons) == (mean >= limit).sum() > 0
 
 
 def test_filter_by_limb_takes_wires_only():
-    source = torus()
-    result = axis_of(source, form="CURVE", limb=0.0, side="INNER")
+    result = compute(torus(), form="CURVE", limb=0.0, side="INNER")
     limb = attribute(result.data, "ma_limb")
     assert len(np.unique(limb)) > 2
     limit = float(np.median(limb[limb > 0]))
@@ -116,7 +98,7 @@ def test_filter_by_limb_takes_wires_only():
     assert list(result.modifiers) == [modifier, tubes], "what shows wires comes last"
     tubes.show_viewport = False
     assert len(evaluated(result).edges) == len(result.data.edges)
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Limb": limit})
+    set_inputs(modifier, Limb=limit)
     kept = evaluated(result)
     faces_edges = len({edge for face in result.data.polygons for edge in face.edge_keys})
     assert len(kept.edges) == faces_edges + (limb[faces_edges:] >= np.float32(limit)).sum()
@@ -128,29 +110,26 @@ def test_filter_by_limb_takes_wires_only():
 
 def two_balls():
     """Vertices with radii 1 and 0.5, ten apart."""
-    thing = link("Two", [(0, 0, 0), (10, 0, 0)])
-    radius = thing.data.attributes.new("ma_radius", "FLOAT", "POINT")
-    radius.data.foreach_set("value", np.array([1.0, 0.5], np.float32))
-    return thing
+    return with_radii(link("Two", [(0, 0, 0), (10, 0, 0)]), [1.0, 0.5])
 
 
 def test_balls_are_as_large_as_the_radii():
     thing = two_balls()
     modifier = with_group(thing, "BALLS")
-    assert sorted(instances(thing)) == pytest.approx([0.5, 1.0])
-    inputs = addon("bridge.nodes.inputs")
-    inputs.set_inputs(modifier, {"Factor": 2.0, "Offset": -1.25})
-    assert sorted(instances(thing)) == pytest.approx([0.75])
-    inputs.set_inputs(modifier, {"Factor": 1.0, "Offset": 0.0, "Min Radius": 0.6})
-    assert sorted(instances(thing)) == pytest.approx([1.0])
+    for values, sizes in (
+        ({}, [0.5, 1.0]),
+        ({"Factor": 2.0, "Offset": -1.25}, [0.75]),
+        ({"Factor": 1.0, "Offset": 0.0, "Min Radius": 0.6}, [1.0]),
+    ):
+        set_inputs(modifier, **values)
+        assert sorted(scale[0] for scale in instances(thing)) == pytest.approx(sizes)
 
 
 def test_balls_merge():
-    source = ellipsoid()
-    result = axis_of(source, side="INNER")
+    result = compute(ellipsoid(), side="INNER")
     modifier = with_group(result, "BALLS")
     assert len(instances(result)) == len(result.data.vertices)
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Merge": 0.1})
+    set_inputs(modifier, Merge=0.1)
     assert 0 < len(instances(result)) < len(result.data.vertices) / 4
 
 
@@ -164,19 +143,18 @@ def ball_volume(radius):
 @pytest.mark.parametrize(("factor", "offset"), [(1.0, 0.0), (1.0, 0.3), (1.0, -0.3), (0.5, 0.1)])
 def test_rebuild_of_a_ball_has_its_volume(factor, offset):
     thing = two_balls()
-    values = {"Min Radius": 0.6, "Voxel": 0.03, "Factor": factor, "Offset": offset}
-    addon("bridge.nodes.inputs").set_inputs(groups().add_modifier(thing, "REBUILD"), values)
+    with_group(thing, "REBUILD", Min_Radius=0.6, Voxel=0.03, Factor=factor, Offset=offset)
     found = volume(evaluated(thing))
     assert found == pytest.approx(ball_volume(factor + offset), rel=0.02)
 
 
 def test_rebuilt_balls_have_the_colours_of_their_radii():
     thing = two_balls()
-    addon("bridge.nodes.inputs").set_inputs(groups().add_modifier(thing, "REBUILD"), {"Voxel": 0.2})
+    with_group(thing, "REBUILD", Voxel=0.2)
     mesh, scale = evaluated(thing), addon("core.axis.colours").SCALE
-    large = np.array([vertex.co.x < 5 for vertex in mesh.vertices])
-    np.testing.assert_allclose(colours(mesh)[large], [scale[0][1]] * large.sum(), atol=0.01)
-    np.testing.assert_allclose(colours(mesh)[~large], [scale[-1][1]] * (~large).sum(), atol=0.01)
+    large = positions(mesh)[:, 0] < 5
+    for rows, (_, colour) in ((large, scale[0]), (~large, scale[-1])):
+        np.testing.assert_allclose(colours(mesh)[rows], [colour] * rows.sum(), atol=0.01)
     assert 0 < large.sum() < len(large)
 
 
@@ -190,7 +168,7 @@ def test_colour_goes_from_the_first_to_the_last_colour():
     found = colours(evaluated(thing))
     assert found[1] == pytest.approx(scale[0][1], abs=0.01)
     assert found[0] == pytest.approx(scale[-1][1], abs=0.01)
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Start": 0.5, "End": 1.5})
+    set_inputs(modifier, Start=0.5, End=1.5)
     assert colours(evaluated(thing))[0] != pytest.approx(scale[-1][1], abs=0.01)
 
 
@@ -205,11 +183,9 @@ def colours(mesh):
 def test_the_menu_adds_a_group_to_the_axis_of_the_active_object():
     source = ellipsoid()
     refuse("Select a medial axis", "medial_axis_nodes", group="BALLS")
-    compute(side="INNER")
-    select(source)
+    result = compute(side="INNER", select_result=False)
     for _ in range(2):
-        assert bpy.ops.object.medial_axis_nodes(group="BALLS") == {"FINISHED"}
-    result = result_of(source)
+        press("medial_axis_nodes", group="BALLS")
     assert [one.node_group for one in result.modifiers] == 2 * [groups().group("BALLS")]
     assert not source.modifiers and len(bpy.data.node_groups) == 1
 
@@ -247,29 +223,24 @@ def test_the_library_is_small_and_holds_all_groups_in_the_catalogue():
 
 
 def test_groups_of_the_library_evaluate_like_those_that_are_built():
-    file = Path(addon().__file__).parent / "nodes" / groups().FILE
     thing = two_balls()
-    counts = [len(instances_of(thing, "BALLS", own)) for own in (None, file)]
-    assert counts == [2, 2]
-    found = volume(evaluated(modified(thing, "REBUILD", file, {"Min Radius": 0.6, "Voxel": 0.03})))
-    assert found == pytest.approx(ball_volume(1.0), rel=0.02)
+    assert len(instances(modified(thing, "BALLS", False))) == 2
+    assert len(instances(modified(thing, "BALLS", True))) == 2
+    made = modified(thing, "REBUILD", True, **{"Min Radius": 0.6, "Voxel": 0.03})
+    assert volume(evaluated(made)) == pytest.approx(ball_volume(1.0), rel=0.02)
 
 
-def modified(thing, key, file, values):
-    """The object with one modifier alone: a group that is built, or that of a library."""
+def modified(thing, key, of_library, **values):
+    """The object with one modifier alone: a group that is built, or that of the library."""
     thing.modifiers.clear()
     modifier = groups().add_modifier(thing, key)
-    if file is not None:
-        name = groups().GROUPS[key].name
+    if of_library:
+        file = Path(addon().__file__).parent / "nodes" / groups().FILE
         with bpy.data.libraries.load(str(file)) as (_, wanted):
-            wanted.node_groups = [name]
+            wanted.node_groups = [groups().GROUPS[key].name]
         modifier.node_group = wanted.node_groups[0]
-    addon("bridge.nodes.inputs").set_inputs(modifier, values)
+    set_inputs(modifier, **values)
     return thing
-
-
-def instances_of(thing, key, file):
-    return instances(modified(thing, key, file, {}))
 
 
 COUNT = """
@@ -284,8 +255,7 @@ print("COUNTED", len(thing.evaluated_get(graph).data.polygons))
 def test_a_file_evaluates_without_the_add_on(tmp_path):
     thing = two_balls()
     with_group(thing, "REBUILD", Min_Radius=0.6, Voxel=0.1)
-    expected = len(evaluated(thing).polygons)
-    file = tmp_path / "two.blend"
+    expected, file = len(evaluated(thing).polygons), tmp_path / "two.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     words = [program(), "--background", "--factory-startup", str(file), "--python-expr", COUNT]
     assert f"COUNTED {expected}\n" in succeeded(words)

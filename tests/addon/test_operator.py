@@ -22,7 +22,7 @@ from measure import (
     triangles_of,
     world_positions,
 )
-from scene import compute, ellipsoid, link, refuse, reopened, scan, select, suzanne, torus
+from scene import compute, ellipsoid, in_edit_mode, refuse, reopened, scan, select, suzanne, torus
 
 
 def snapshot(thing):
@@ -45,13 +45,19 @@ def snapshot(thing):
     )
 
 
+def answer(source, sphere=False, **settings):
+    """The compiled module's axis of a source, of the inside if nothing else is said."""
+    settings = {"side": addon("core.machine.native").load().Side.INNER} | settings
+    return direct(positions(source.data), triangles_of(source.data), sphere, **settings)
+
+
 def assert_holds(thing, axis):
     """The result object holds these arrays, rounded to float32 and not otherwise."""
     mesh = thing.data
     np.testing.assert_array_equal(positions(mesh), axis.vertices.astype(np.float32))
-    np.testing.assert_array_equal(attribute(mesh, "ma_radius"), axis.radius.astype(np.float32))
-    np.testing.assert_array_equal(attribute(mesh, "ma_theta"), axis.theta.astype(np.float32))
-    np.testing.assert_array_equal(attribute(mesh, "ma_rho"), axis.rho.astype(np.float32))
+    for name in ("radius", "theta", "rho"):
+        found, exact = attribute(mesh, f"ma_{name}"), getattr(axis, name)
+        np.testing.assert_array_equal(found, exact.astype(np.float32))
     np.testing.assert_array_equal(attribute(mesh, "ma_side"), axis.side)
     np.testing.assert_array_equal(generators(mesh), axis.generators)
     corners = [loop.vertex_index for loop in mesh.loops]
@@ -67,10 +73,9 @@ def test_subdivided_suzanne():
     for other in source.users_collection:
         other.objects.unlink(source)
     collection.objects.link(source)
-    select(source)
     before = snapshot(source)
     points = positions(evaluated(source))
-    result = compute()
+    result = compute(source)
     assert result.name == "Suzanne Medial Axis"
     assert list(result.users_collection) == [collection]
     assert snapshot(source) == before
@@ -89,68 +94,49 @@ def test_subdivided_suzanne():
 
 def test_result_is_the_compiled_modules_answer():
     source = ellipsoid()
-    compute()
-    points, triangles = positions(source.data), triangles_of(source.data)
-    module = addon("core.machine.native").load()
-    assert result_of(source)["ma_side"] == "INNER"
-    assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER))
+    assert compute()["ma_side"] == "INNER"
+    assert_holds(result_of(source), answer(source))
 
 
-@pytest.mark.parametrize(
-    "settings",
-    [
-        {"theta": 0.9},
-        {"rho": 3.0},
-        {"side": "OUTER"},
-        {"side": "BOTH"},
-        {"rule": "BOTH"},
-        {"criteria": "ANGLE", "theta": 1.2},
-        {"criteria": "RATIO"},
-        {"limit_set": True, "rho": 1.5},
-    ],
-    ids=str,
-)
+SETTINGS = [
+    {"theta": 0.9}, {"rho": 3.0}, {"side": "OUTER"}, {"side": "BOTH"}, {"rule": "BOTH"},
+    {"criteria": "ANGLE", "theta": 1.2}, {"criteria": "RATIO"}, {"limit_set": True, "rho": 1.5},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("settings", SETTINGS, ids=str)
 def test_every_setting_reaches_the_compiled_module(settings):
     source = torus()
-    compute(**settings)
+    result = compute(**settings)
     module = addon("core.machine.native").load()
     enums = {"side": module.Side, "rule": module.Rule, "criteria": module.Criteria}
     wanted = {"side": module.Side.INNER}
     for name, value in settings.items():
         wanted[name] = getattr(enums[name], value) if name in enums else value
-    for name in ("theta", "rho"):
-        if name in wanted:
-            wanted[name] = float(np.float32(wanted[name]))
+        if name in ("theta", "rho"):
+            wanted[name] = float(np.float32(value))
+        assert result[f"ma_{name}"] == pytest.approx(value)
     sphere = settings.get("side", "INNER") != "INNER"
-    points, triangles = positions(source.data), triangles_of(source.data)
-    axis = direct(points, triangles, sphere, **wanted)
-    assert_holds(result_of(source), axis)
+    axis = answer(source, sphere, **wanted)
+    assert_holds(result, axis)
     for name in settings:
-        others = {key: value for key, value in wanted.items() if key != name or name == "side"}
-        others["side"] = module.Side.INNER if name == "side" else others["side"]
-        without = direct(points, triangles, sphere, **others)
-        assert len(axis.theta) != len(without.theta), (
-            f"{name} changed nothing, so nothing was tested"
-        )
-    for name, value in settings.items():
-        assert result_of(source)[f"ma_{name}"] == pytest.approx(value)
+        others = {key: value for key, value in wanted.items() if key != name}
+        without = answer(source, sphere, **others)
+        assert len(axis.theta) != len(without.theta), f"nothing was tested: {name} changed nothing"
 
 
 def test_modifiers_are_applied_as_the_viewport_shows_them():
     source = ellipsoid(segments=2)
     count = len(source.data.vertices)
     source.modifiers.new("Array", "ARRAY").relative_offset_displace = (2, 0, 0)
-    compute()
-    assert result_of(source)["ma_points"] == 2 * count
+    assert compute()["ma_points"] == 2 * count
     source.modifiers["Array"].show_viewport = False
-    compute(source)
-    assert result_of(source)["ma_points"] == count
+    assert compute(source)["ma_points"] == count
 
 
 def test_several_selected_objects_give_one_result_each(capfd):
     first, second = ellipsoid("First"), ellipsoid("Second", axes=(1, 1, 0.4))
-    select(first, second)
-    compute()
+    compute(first, second)
     assert {thing.name for thing in medial_objects()} == {"First Medial Axis", "Second Medial Axis"}
     assert set(bpy.context.selected_objects) == {result_of(first), result_of(second)}
     assert bpy.context.object == result_of(first)
@@ -159,7 +145,7 @@ def test_several_selected_objects_give_one_result_each(capfd):
 
 
 def test_one_bad_object_does_not_take_the_others_down():
-    good, flat = ellipsoid("Good"), link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
+    good, flat = ellipsoid("Good"), scan("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
     select(good, flat)
     with pytest.raises(RuntimeError, match="'Flat': "):
         bpy.ops.object.medial_axis()
@@ -169,30 +155,19 @@ def test_one_bad_object_does_not_take_the_others_down():
 def test_objects_that_are_no_meshes_are_passed_over():
     source = ellipsoid()
     bpy.ops.object.camera_add()
-    select(bpy.context.object, source)
-    compute()
+    compute(bpy.context.object, source)
     assert len(medial_objects()) == 1
 
 
-def test_running_again_updates_the_same_object():
+def test_running_again_updates_the_same_object_whatever_it_is_called():
     source = ellipsoid()
     result = compute()
-    result.data.name = "My Axis"
-    first = len(result.data.polygons)
-    meshes = len(bpy.data.meshes)
-    compute(source, theta=1.0, rho=20.0)
-    assert result_of(source) == result and len(medial_objects()) == 1
+    first, meshes = len(result.data.polygons), len(bpy.data.meshes)
+    result.data.name, source.name, result.name = "My Axis", "Pebble", "Bone"
+    assert compute(source, theta=1.0, rho=20.0) == result and medial_objects() == [result]
     assert 0 < len(result.data.polygons) < first
-    assert result.data.name == "My Axis" and len(bpy.data.meshes) == meshes
+    assert (result.data.name, result.name) == ("My Axis", "Bone") and len(bpy.data.meshes) == meshes
     assert result["ma_theta"] == pytest.approx(1.0)
-
-
-def test_renamed_source_and_result_are_found_again():
-    source = ellipsoid()
-    result = compute()
-    source.name, result.name = "Pebble", "Bone"
-    compute(source, theta=1.0)
-    assert medial_objects() == [result] and result.name == "Bone"
 
 
 def test_selected_result_is_computed_from_its_source():
@@ -205,9 +180,8 @@ def test_selected_result_is_computed_from_its_source():
 
 
 def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
-    source = ellipsoid()
-    result = compute()
-    select(source)
+    ellipsoid()
+    result = compute(select_result=False)
     bpy.ops.object.delete()
     select(result)
     refuse("source is gone", "object.medial_axis")
@@ -216,7 +190,6 @@ def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
 def test_moved_and_changed_result_is_put_back_and_keeps_the_artists_choices():
     source = ellipsoid()
     result = compute()
-    lies = world_positions(result)
     own = bpy.data.materials.new("Own")
     result.data.materials[0] = own
     result.location, result.show_in_front = (5, 5, 5), False
@@ -224,18 +197,14 @@ def test_moved_and_changed_result_is_put_back_and_keeps_the_artists_choices():
     bpy.context.scene.collection.objects.link(copy)
     compute(source, criteria="ANGLE")
     assert list(result.data.materials) == [own] and not result.show_in_front
-    assert copy.data == result.data
-    bpy.context.view_layer.update()
+    assert copy.data == result.data and len(world_positions(result)) > 0
     assert result.matrix_world.translation.length == 0
-    assert len(lies) > 0
 
 
 def test_material_is_made_once_and_spans_each_objects_own_radii():
     first, second = ellipsoid("First"), ellipsoid("Second", axes=(3, 2, 2))
-    select(first, second)
-    compute()
-    materials = [m for m in bpy.data.materials if m.name.startswith("Medial Axis")]
-    assert len(materials) == 1
+    compute(first, second)
+    assert sum(m.name.startswith("Medial Axis") for m in bpy.data.materials) == 1
     for source in (first, second):
         radius = attribute(result_of(source).data, "ma_radius")
         assert result_of(source)["ma_radius_min"] == pytest.approx(radius.min(), rel=1e-6)
@@ -244,42 +213,35 @@ def test_material_is_made_once_and_spans_each_objects_own_radii():
 
 def test_theta_and_rho_are_filtered_from_the_kept_analysis():
     source = torus()
-    compute()
+    result, panel = compute(), bpy.context.scene.medial_axis
     before = analyses()
-    panel = bpy.context.scene.medial_axis
     panel.form = "PUBLISHED"
     counts = {}
     for theta in (0.2, 0.6, 1.2):
         panel.theta = theta
-        counts[theta] = len(result_of(source).data.polygons)
-        assert result_of(source)["ma_theta"] == pytest.approx(theta)
+        counts[theta] = len(result.data.polygons)
+        assert result["ma_theta"] == pytest.approx(theta)
     assert counts[0.2] >= counts[0.6] >= counts[1.2] > 0 and counts[0.2] > counts[1.2]
     panel.rho = 40.0
-    assert len(result_of(source).data.polygons) < counts[1.2]
-    compute(source, theta=0.2)
-    assert len(result_of(source).data.polygons) == counts[0.2]
+    assert len(result.data.polygons) < counts[1.2]
+    assert len(compute(source, theta=0.2).data.polygons) == counts[0.2]
     assert analyses() == before
-    module = addon("core.machine.native").load()
-    points, triangles = positions(source.data), triangles_of(source.data)
-    theta = float(np.float32(0.2))
-    assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER, theta=theta))
+    assert_holds(result, answer(source, theta=float(np.float32(0.2))))
 
 
 def test_sliders_act_on_the_source_too_and_leave_placement_alone():
     source = ellipsoid()
-    result = compute()
+    result = compute(select_result=False)
     result.location = (3, 0, 0)
-    select(source)
+    assert bpy.context.object == source
     bpy.context.scene.medial_axis.criteria = "ANGLE"
     assert result["ma_criteria"] == "ANGLE" and tuple(result.location) == (3, 0, 0)
 
 
 def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
-    result = compute(torus())
+    result, panel = compute(torus()), bpy.context.scene.medial_axis
     count = len(result.data.polygons)
-    panel = bpy.context.scene.medial_axis
-    panel.form = "PUBLISHED"
-    panel.criteria = "RATIO"
+    panel.form, panel.criteria = "PUBLISHED", "RATIO"
     kept = len(result.data.polygons)
     panel.rho = 1e9
     assert len(result.data.polygons) == kept <= count
@@ -289,12 +251,11 @@ def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
 
 
 def test_slider_without_kept_analysis_asks_for_compute():
-    result = compute(ellipsoid())
+    result, panel = compute(ellipsoid()), bpy.context.scene.medial_axis
     addon("core.machine.cache").CACHE.clear()
     count = len(result.data.polygons)
-    bpy.context.scene.medial_axis.theta = 1.2
-    assert len(result.data.polygons) == count
-    assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
+    panel.theta = 1.2
+    assert len(result.data.polygons) == count and "Press Compute Medial Axis" in panel.note
 
 
 def test_changed_mesh_is_analysed_again():
@@ -309,41 +270,32 @@ def test_changed_mesh_is_analysed_again():
 
 def test_edit_mode_is_flushed_not_refused():
     source = ellipsoid()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.transform.resize(value=(2, 2, 2))
-    compute()
-    assert source.mode == "EDIT"
-    bpy.ops.object.mode_set(mode="OBJECT")
-    points = positions(source.data)
-    assert np.abs(points).max() == pytest.approx(2.0, rel=0.01)
-    module = addon("core.machine.native").load()
-    assert_holds(
-        result_of(source), direct(points, triangles_of(source.data), side=module.Side.INNER)
-    )
+    with in_edit_mode():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.transform.resize(value=(2, 2, 2))
+        compute()
+        assert source.mode == "EDIT"
+    assert np.abs(positions(source.data)).max() == pytest.approx(2.0, rel=0.01)
+    assert_holds(result_of(source), answer(source))
 
 
 def test_edit_mode_sees_modifiers():
     source = ellipsoid(segments=2)
     source.modifiers.new("Subdivision", "SUBSURF").levels = 1
-    bpy.ops.object.mode_set(mode="EDIT")
-    compute()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with in_edit_mode():
+        compute()
     count = len(evaluated(source).vertices)
     assert result_of(source)["ma_points"] == count > len(source.data.vertices)
 
 
 def test_result_in_edit_mode_is_refused():
-    ellipsoid()
-    result = compute()
+    result = compute(ellipsoid())
     count = len(result.data.polygons)
-    bpy.ops.object.mode_set(mode="EDIT")
-    refuse(
-        "in object mode, found it in edit mode; leave that mode", "object.medial_axis", theta=1.2
-    )
-    bpy.context.scene.medial_axis.theta = 1.2
-    assert "object mode" in bpy.context.scene.medial_axis.note
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with in_edit_mode():
+        words = "in object mode, found it in edit mode; leave that mode"
+        refuse(words, "object.medial_axis", theta=1.2)
+        bpy.context.scene.medial_axis.theta = 1.2
+        assert "object mode" in bpy.context.scene.medial_axis.note
     assert len(result.data.polygons) == count
 
 
@@ -352,67 +304,53 @@ def test_object_in_two_collections():
     other = bpy.data.collections.new("Other")
     bpy.context.scene.collection.children.link(other)
     other.objects.link(source)
-    compute()
-    assert set(result_of(source).users_collection) == set(source.users_collection)
+    assert set(compute().users_collection) == set(source.users_collection)
 
 
 def test_result_survives_saving_and_loading(tmp_path):
-    source = ellipsoid()
-    compute()
-    count = len(result_of(source).data.polygons)
+    count = len(compute(ellipsoid()).data.polygons)
     reopened(tmp_path / "saved.blend")
-    source = bpy.data.objects["Ellipsoid"]
+    source, panel = bpy.data.objects["Ellipsoid"], bpy.context.scene.medial_axis
     assert len(result_of(source).data.polygons) == count
-    bpy.context.scene.medial_axis.theta = 1.2
-    assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
-    compute(source, theta=1.2)
-    assert len(medial_objects()) == 1 and len(result_of(source).data.polygons) < count
-    assert bpy.context.scene.medial_axis.note == ""
+    panel.theta = 1.2
+    assert "Press Compute Medial Axis" in panel.note
+    assert len(compute(source, theta=1.2).data.polygons) < count and len(medial_objects()) == 1
+    assert panel.note == ""
 
 
 def test_copy_of_a_source_gets_a_result_of_its_own():
     source = ellipsoid()
     compute()
     copy = bpy.data.objects.new("Copy", source.data)
-    copy.location = (4, 0, 0)
     bpy.context.scene.collection.objects.link(copy)
-    select(copy)
+    copy.location = (4, 0, 0)
     before = analyses()
-    compute()
-    assert {thing.name for thing in medial_objects()} == {
-        "Ellipsoid Medial Axis",
-        "Copy Medial Axis",
-    }
+    compute(copy)
+    names = {f"{thing.name} Medial Axis" for thing in (source, copy)}
+    assert {thing.name for thing in medial_objects()} == names
     assert analyses() == before, "the same shape elsewhere is the same analysis"
     bpy.context.view_layer.update()
     assert tuple(result_of(copy).matrix_world.translation) == (4, 0, 0)
 
 
-def operator_of(**settings):
-    """The operator without a window, with the settings that it would have."""
+def drafted(source, **settings):
+    """The draft of the first click on a source, by the operator without a window; None where there is none."""
     core = addon("core.settings")
     options = core.OPTIONS | core.LOOKS | core.DIVISION
     values = {
         name: getattr(option.default, "name", option.default) for name, option in options.items()
     }
-    kind = addon("ui.axis.operators").OBJECT_OT_medial_axis
-    thing = SimpleNamespace(**(values | settings))
+    operator, shape = SimpleNamespace(**(values | settings)), read(source)
     for name in ("draft", "write", "write_draft", "_show_draft"):
-        setattr(thing, name, MethodType(getattr(kind, name), thing))
-    return thing
-
-
-def drafted(source, **settings):
-    """The draft of the first click on a source; None where there is none."""
-    operator, shape = operator_of(**settings), read(source)
+        method = getattr(addon("ui.axis.operators").OBJECT_OT_medial_axis, name)
+        setattr(operator, name, MethodType(method, operator))
     work = operator.draft(source, shape)
     if work is None:
         return None
-    found = addon("ui.axis.selected_sources").Source(
-        source.name, None, shape.frame, source.matrix_world.copy()
-    )
-    outcome = addon("core.machine.job").run_task(addon("core.machine.job").Task("", work))
-    operator._show_draft(found, outcome)
+    place = shape.frame, source.matrix_world.copy()
+    found = addon("ui.axis.selected_sources").Source(source.name, None, *place)
+    job = addon("core.machine.job")
+    operator._show_draft(found, job.run_task(job.Task("", work)))
     assert operator._kept
     return result_of(source)
 

@@ -2,39 +2,33 @@
 """The words of the window: one line that begins with what to do or what was found."""
 
 import re
+from pathlib import Path
 
 import blf
 import bpy
 import pytest
 from installed import addon
+from scene import added
 from test_rows import Layout, seen
+
+FLAT = "Expected faces that span a volume, found all of them in one plane; give them thickness"
+OPEN = (
+    "Expected faces that bound a solid, found an open sheet (320 open edges); give it thickness (a "
+    "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it"
+)
+OTHER = "Expected a mesh of this file, found another object; convert it to a mesh, or link it"
+BARE = "Expected a surface with faces, found one without"
+PRESS = "Press Measure Thickness to apply this"
 
 
 @pytest.mark.parametrize(
     ("kind", "sentence", "line"),
     [
-        (
-            "FONT",
-            "Expected faces that span a volume, found all of them in one plane; give them thickness",
-            "This text is flat: give it Extrude.",
-        ),
-        (
-            "MESH",
-            "Expected faces that bound a solid, found an open sheet (320 open edges); give it thickness (a "
-            "Solidify modifier), or choose Side Both, or Inside Decided By Normals for what lies behind it",
-            "This mesh is open: add Solidify, or choose Side: Both.",
-        ),
-        (
-            "MESH",
-            "Expected a mesh of this file, found another object; convert it to a mesh, or link it",
-            "Convert it to a mesh.",
-        ),
-        (
-            "MESH",
-            "Expected a surface with faces, found one without",
-            "This needs a surface with faces.",
-        ),
-        ("MESH", "Press Measure Thickness to apply this", "Press Measure Thickness to apply this"),
+        ("FONT", FLAT, "This text is flat: give it Extrude."),
+        ("MESH", OPEN, "This mesh is open: add Solidify, or choose Side: Both."),
+        ("MESH", OTHER, "Convert it to a mesh."),
+        ("MESH", BARE, "This needs a surface with faces."),
+        ("MESH", PRESS, PRESS),
     ],
 )
 def test_sentences_of_the_library_become_one_line(kind, sentence, line):
@@ -42,28 +36,21 @@ def test_sentences_of_the_library_become_one_line(kind, sentence, line):
 
 
 def test_the_kind_and_the_name_are_those_of_the_object():
-    bpy.ops.object.text_add()
-    words, thing = addon("ui.base.plain_words"), bpy.context.object
-    flat = "Expected faces that span a volume, found all of them in one plane; give them thickness"
-    assert words.in_one_line(f"'{thing.name}': {flat}") == "This text is flat: give it Extrude."
+    words, name = addon("ui.base.plain_words"), added("object.text").name
+    assert words.in_one_line(f"'{name}': {FLAT}") == "This text is flat: give it Extrude."
     other = "Expected points, found none; add some, or change the modifiers that remove them"
-    assert words.in_one_line(f"'{thing.name}': {other}") == f"'{thing.name}': Add some."
+    assert words.in_one_line(f"'{name}': {other}") == f"'{name}': Add some."
 
 
 def test_no_error_of_the_sources_shows_its_grammar():
     """Every sentence that the sources write as one text: in the window, nothing of it reads Expected, found."""
-    from pathlib import Path
-
-    folder = Path(addon().__file__).parent
-    sources = (path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
-    found = [
-        text for source in sources for text in re.findall(r'"(Expected [^"{]+[^"{ ])"\n', source)
-    ]
+    sources = Path(addon().__file__).parent.rglob("*.py")
+    text = "".join(path.read_text(encoding="utf-8") for path in sources)
+    found = re.findall(r'"(Expected [^"{]+[^"{ ])"\n', text)
     assert len(found) > 3
     for sentence in found:
-        assert not addon("ui.base.plain_words").in_one_line(sentence).startswith("Expected"), (
-            sentence
-        )
+        line = addon("ui.base.plain_words").in_one_line(sentence)
+        assert not line.startswith("Expected"), sentence
 
 
 def test_warnings_are_what_was_found():

@@ -5,8 +5,8 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import attribute, positions, read, result_of, world_positions
-from scene import added, compute, ellipsoid, refuse, select
+from measure import attribute, positions, read, world_positions
+from scene import added, compute, ellipsoid, new_object, press, refuse, select
 from support.clouds import on_ellipsoid
 
 
@@ -14,9 +14,8 @@ def point_cloud(points, normals=None, name="Cloud"):
     """A point cloud object; Blender before 5.0 gives them a number of points of its own."""
     experimental = bpy.context.preferences.experimental
     if "resize" in bpy.types.PointCloud.bl_rna.functions:
-        thing = bpy.data.objects.new(name, bpy.data.pointclouds.new(name))
+        thing = new_object(name, bpy.data.pointclouds.new(name))
         thing.data.resize(len(points))
-        bpy.context.scene.collection.objects.link(thing)
     elif hasattr(experimental, "use_new_point_cloud_type"):
         experimental.use_new_point_cloud_type = True
         thing = added("object.pointcloud")
@@ -35,21 +34,9 @@ def point_cloud(points, normals=None, name="Cloud"):
 
 def to_points(source):
     """Geometry nodes that turn the mesh into points."""
-    tree = bpy.data.node_groups.new("Mesh to Points", "GeometryNodeTree")
-    if hasattr(tree, "interface"):
-        for direction in ("INPUT", "OUTPUT"):
-            tree.interface.new_socket(
-                "Geometry", in_out=direction, socket_type="NodeSocketGeometry"
-            )
-    else:
-        tree.inputs.new("NodeSocketGeometry", "Geometry")
-        tree.outputs.new("NodeSocketGeometry", "Geometry")
-    start, points, end = map(
-        tree.nodes.new, ("NodeGroupInput", "GeometryNodeMeshToPoints", "NodeGroupOutput")
-    )
-    tree.links.new(start.outputs[0], points.inputs[0])
-    tree.links.new(points.outputs[0], end.inputs[0])
-    source.modifiers.new("Points", "NODES").node_group = tree
+    tree = addon("bridge.nodes.tree").Tree("Mesh to Points")
+    points = tree.node("GeometryNodeMeshToPoints", named={"Mesh": tree.geometry})
+    source.modifiers.new("Points", "NODES").node_group = tree.output(points)
     select(source)
 
 
@@ -69,9 +56,9 @@ def test_point_cloud_gives_an_inner_axis():
     assert result.name == "Cloud Medial Axis" and result["ma_side"] == "INNER"
     assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
     assert set(attribute(result.data, "ma_side")) == {1}
-    assert addon("ui.settings.properties").shown_result(bpy.context) == result
-    select(source)
-    assert addon("ui.settings.properties").shown_result(bpy.context) == result
+    for thing in (result, source):
+        select(thing)
+        assert addon("ui.settings.properties").shown_result(bpy.context) == result
     bpy.context.scene.medial_axis.theta = 0.6
     assert result["ma_theta"] == pytest.approx(0.6)
 
@@ -89,7 +76,7 @@ def test_point_cloud_with_normals():
 
 def test_point_cloud_gives_a_surface():
     source = point_cloud(on_ellipsoid(CLOUD)[0])
-    assert bpy.ops.object.tight_cocone_surface() == {"FINISHED"}
+    press("tight_cocone_surface")
     surface = addon("bridge.surface_object").surface_of(source)
     assert len(surface.data.vertices) == CLOUD and len(surface.data.polygons) == 2 * CLOUD - 4
 
@@ -97,9 +84,7 @@ def test_point_cloud_gives_a_surface():
 def test_empty_point_cloud():
     if not hasattr(bpy.data, "pointclouds"):
         pytest.skip("this Blender has no point clouds")
-    thing = bpy.data.objects.new("Empty", bpy.data.pointclouds.new("Empty"))
-    bpy.context.scene.collection.objects.link(thing)
-    select(thing)
+    select(new_object("Empty", bpy.data.pointclouds.new("Empty")))
     refuse("'Empty': Expected points, found none")
 
 
@@ -108,9 +93,8 @@ def test_points_that_geometry_nodes_make_of_a_mesh():
     before = positions(source.data)
     to_points(source)
     np.testing.assert_array_equal(read(source).points, before)
-    compute()
-    assert result_of(source)["ma_sides"] == "TIGHT_COCONE"
-    assert result_of(source)["ma_points"] == len(before)
+    result = compute()
+    assert (result["ma_sides"], result["ma_points"]) == ("TIGHT_COCONE", len(before))
 
 
 def test_points_of_another_object_are_not_taken():

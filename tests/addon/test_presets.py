@@ -23,9 +23,8 @@ OTHERS = {"theta": 0.1, "side": "OUTER", "samples": 777, "smooth": False, "seed"
 
 
 def execute(path):
-    done = bpy.ops.script.execute_preset(
-        filepath=str(path), menu_idname="VIEW3D_PT_medial_axis_presets"
-    )
+    menu = "VIEW3D_PT_medial_axis_presets"
+    done = bpy.ops.script.execute_preset(filepath=str(path), menu_idname=menu)
     assert done == {"FINISHED"}
 
 
@@ -34,38 +33,31 @@ def set_all(values):
         setattr(bpy.context.scene.medial_axis, name, value)
 
 
-def shown():
-    return addon("ui.settings.properties").settings_from(bpy.context.scene.medial_axis)
-
-
 def expected(changes):
     settings = addon("core.settings")
-    values = {
-        name: type(settings.OPTIONS[name].default)[value]
-        if isinstance(settings.OPTIONS[name], addon("core.options").Choice)
-        else value
-        for name, value in changes.items()
-    }
+    kinds = {name: type(settings.OPTIONS[name].default) for name in changes}
+    values = {name: kinds[name][v] if isinstance(v, str) else v for name, v in changes.items()}
     return settings.Settings(**values)
+
+
+def shown():
+    return addon("ui.settings.properties").settings_from(bpy.context.scene.medial_axis)
 
 
 def drawn(monkeypatch):
     """Names and files that the menu of presets shows."""
     files = {}
-    panel = addon("ui.settings.presets").VIEW3D_PT_medial_axis_presets
-
-    class Menu:
-        preset_subdir = panel.preset_subdir
-        preset_operator = panel.preset_operator
-        path_menu = panel.path_menu
 
     def record(_self, paths, operator, **_options):
         assert operator == "script.execute_preset"
         for folder in map(Path, paths):
             files.update((file.stem, file) for file in folder.glob("*.py"))
 
+    panel = addon("ui.settings.presets").VIEW3D_PT_medial_axis_presets
+    names = ("preset_subdir", "preset_operator", "path_menu")
+    menu = type("Menu", (), {name: getattr(panel, name) for name in names})
     monkeypatch.setattr(bpy.types.Menu, "path_menu", record)
-    bpy.types.Menu.draw_preset(Menu(), bpy.context)
+    bpy.types.Menu.draw_preset(menu(), bpy.context)
     return files
 
 

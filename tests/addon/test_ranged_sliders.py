@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import positions, result_of
-from scene import compute, ellipsoid, reopened, select
+from measure import positions
+from scene import compute, ellipsoid, move_vertices, press, reopened, select
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500, "form": "CLEAN"}
 
@@ -30,10 +30,7 @@ def shown_row(name):
 
 @pytest.fixture
 def result():
-    source = ellipsoid()
-    compute(**EVEN)
-    select(source)
-    return result_of(source)
+    return compute(ellipsoid(), select_result=False, **EVEN)
 
 
 def facets(thing):
@@ -110,13 +107,12 @@ def test_simplify_goes_to_the_gap_of_a_noisy_body(tmp_path):
     source = ellipsoid(segments=5)
     noisy = positions(source.data)
     noisy += np.random.default_rng(1).normal(scale=0.014, size=noisy.shape)
-    source.data.vertices.foreach_set("co", noisy.astype(np.float32).ravel())
-    compute(sampling="VERTICES", prepare="OFF", form="CLEAN", mesh="VORONOI")
-    select(source)
+    move_vertices(source, noisy)
+    settings = {"sampling": "VERTICES", "prepare": "OFF", "form": "CLEAN", "mesh": "VORONOI"}
+    result, name = compute(select_result=False, **settings), source.name
     panel().mesh = "VORONOI"
-    result, name = result_of(source), source.name
     gap, whole = result["ma_simplify_gap"], facets(result)
-    assert bpy.ops.object.medial_axis_simplify_to_gap() == {"FINISHED"}
+    press("medial_axis_simplify_to_gap")
     assert panel().simplify == pytest.approx(gap) and result["ma_simplify"] == pytest.approx(gap)
     assert 0.3 * whole < facets(result) < whole
     panel().simplify = 0.0
@@ -127,14 +123,14 @@ def test_simplify_goes_to_the_gap_of_a_noisy_body(tmp_path):
 
 
 def test_nothing_is_suggested_without_a_gap(result):
-    assert "ma_simplify_gap" not in result
-    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    offered = bpy.ops.object.medial_axis_simplify_to_gap.poll
+    assert "ma_simplify_gap" not in result and not offered()
     result["ma_simplify_gap"] = "as no version writes it"
-    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    assert not offered()
     result["ma_simplify_gap"] = 1.0
-    assert bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    assert offered()
     panel().form = "CURVE"
-    assert not bpy.ops.object.medial_axis_simplify_to_gap.poll()
+    assert not offered()
 
 
 def test_a_published_axis_has_no_ranges(result):

@@ -7,9 +7,12 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
+from mathutils import Matrix
 from measure import attribute, contents, evaluated, positions, reports, result_of, volume
-from scene import added, compute, ellipsoid, exclude, link, refuse, select, torus, tube_ring
-from test_nodes import ball_volume
+from scene import added, compute, ellipsoid, exclude, link, press, refuse, torus, tube_ring
+from test_nodes import ball_volume, with_radii
+
+INSIDE = {"form": "CLEAN", "side": "INNER"}
 
 
 def rebuilt(thing):
@@ -18,83 +21,73 @@ def rebuilt(thing):
 
 def rebuild(thing, **values):
     """The rebuilt solid of a source, with values of the inputs of its modifier."""
-    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    press("medial_axis_rebuild")
     made = rebuilt(thing)
     modifier = addon("bridge.rebuilt_object").modifier_of(made)
-    named = {name.replace("_", " "): value for name, value in values.items()}
-    addon("bridge.nodes.inputs").set_inputs(modifier, named)
+    addon("bridge.nodes.inputs").set_inputs(modifier, values)
     return made
 
 
 def test_an_ellipsoid_comes_back(capfd):
     source = ellipsoid(segments=4)
     source.location, source.rotation_euler = (3, 1, 2), (0.3, 0.2, 0.1)
-    compute(form="CLEAN", side="INNER")
-    select(source)
+    axis = compute(**INSIDE, select_result=False)
     reports(capfd)
     made = rebuild(source)
     figures = [float(x) for x in re.findall(r"([\d.]+) %", reports(capfd)[-1][1])]
     assert figures[0] < 0.2 and figures[1] < 1.5 and abs(figures[2] - 100) < 2
-    assert volume(evaluated(made)) / volume(source.data) == pytest.approx(
-        figures[2] / 100, abs=1e-3
-    )
+    share = volume(evaluated(made)) / volume(source.data)
+    assert share == pytest.approx(figures[2] / 100, abs=1e-3)
     assert made["ma_rebuilt_mean"] == pytest.approx(figures[0] / 100, abs=1e-5)
-    assert np.allclose(made.matrix_world, result_of(source).matrix_world)
+    assert np.allclose(made.matrix_world, axis.matrix_world)
 
 
 def test_it_is_made_once_and_follows_the_axis():
     source = ellipsoid()
-    compute(side="INNER")
-    select(source)
+    compute(side="INNER", select_result=False)
     made = rebuild(source)
     before = contents()
-    select(made)
-    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    press("medial_axis_rebuild", made)
     assert contents() == before
     assert made.data == result_of(source).data
     volume_before = volume(evaluated(made))
-    source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())
-    source.data.update()
-    compute(source, side="INNER")
-    assert made.data == result_of(source).data
+    source.data.transform(Matrix.Scale(2.0, 4))
+    axis = compute(source, side="INNER")
+    assert made.data == axis.data
     assert volume(evaluated(made)) == pytest.approx(8 * volume_before, rel=0.02)
 
 
 def test_along_an_edge_radii_are_linear():
     """Balls at its ends alone would be two beads."""
-    thing = link("Cone", [(0, 0, 0), (2, 0, 0)], edges=[(0, 1)])
-    radius = thing.data.attributes.new("ma_radius", "FLOAT", "POINT")
-    radius.data.foreach_set("value", np.array([0.5, 0.3], np.float32))
+    thing = with_radii(link("Cone", [(0, 0, 0), (2, 0, 0)], edges=[(0, 1)]), [0.5, 0.3])
     addon("bridge.nodes.groups").add_modifier(thing, "REBUILD")
     caps, slope = (ball_volume(0.5) + ball_volume(0.3)) / 2, np.pi * 2 / 3
     exact = caps + slope * (0.5**2 + 0.5 * 0.3 + 0.3**2)
     assert volume(evaluated(thing)) == pytest.approx(exact, rel=0.03)
 
 
-def test_offset_of_a_torus_is_a_thicker_torus():
-    source = tube_ring(96, 48, 0.4)
-    compute(form="CLEAN", side="INNER")
-    made = rebuild(source, Offset=0.1)
-    exact = 2 * np.pi**2 * (0.4 + 0.1) ** 2
-    assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
-
-
-def test_offset_of_a_box():
-    source = added("cube", size=2)
-    compute(form="CLEAN", side="INNER", sampling="ADAPTIVE")
-    made = rebuild(source, Offset=0.2)
-    # Faces, quarters of cylinders along the edges, eighths of balls at the corners.
-    exact = 8 + 24 * 0.2 + 12 * 2 * np.pi / 4 * 0.04 + ball_volume(0.2)
-    assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
+@pytest.mark.parametrize(
+    ("make", "settings", "offset", "exact"),
+    [
+        (lambda: tube_ring(96, 48, 0.4), {}, 0.1, 2 * np.pi**2 * (0.4 + 0.1) ** 2),
+        # Faces, quarters of cylinders along the edges, eighths of balls at the corners.
+        (lambda: added("cube", size=2), {"sampling": "ADAPTIVE"}, 0.2,
+         8 + 24 * 0.2 + 12 * 2 * np.pi / 4 * 0.04 + ball_volume(0.2)),
+    ],
+    ids=["torus", "box"],
+)  # fmt: skip
+def test_an_offset_makes_a_thicker_solid(make, settings, offset, exact):
+    source = make()
+    compute(**INSIDE | settings)
+    assert volume(evaluated(rebuild(source, Offset=offset))) == pytest.approx(exact, rel=0.02)
 
 
 def test_a_torus_is_hollowed_out():
     """The source minus its rebuilt inside: a wall of the offset's thickness, and the surface as it was."""
     source = tube_ring(64, 32, 0.4)
-    compute(form="CLEAN", side="INNER")
+    compute(**INSIDE)
     made = rebuild(source, Offset=-0.1, Voxel=0.05)
-    inside = volume(evaluated(made))
-    whole = volume(evaluated(source))
+    inside, whole = volume(evaluated(made)), volume(evaluated(source))
     hollow = source.modifiers.new("Hollow", "BOOLEAN")
     hollow.operation, hollow.object = "DIFFERENCE", made
     walls = volume(evaluated(source))
@@ -105,48 +98,41 @@ def test_a_torus_is_hollowed_out():
 
 
 def test_an_outer_axis_is_refused():
-    torus()
-    compute(side="OUTER")
+    compute(torus(), side="OUTER")
     refuse("Expected a medial axis of the inside", "medial_axis_rebuild")
+
+
+def scaled_axis(size):
+    """An ellipsoid of this size with its axis, and the extents that its solid should have."""
+    source = ellipsoid()
+    source.scale = (size,) * 3
+    axis = compute(source, **INSIDE, sampling="VERTICES", select_result=False)
+    return source, axis, size * np.ptp(positions(source.data), axis=0)
 
 
 @pytest.mark.parametrize("size", [1e-12, 1e-7, 1e-4, 1e6])
 def test_solids_of_any_size_are_rebuilt(size):
     """Below 1e-3 OpenVDB once ended Blender 3.4, with all unsaved work."""
-    source = ellipsoid()
-    source.scale = (size,) * 3
-    bpy.context.view_layer.update()
-    compute(form="CLEAN", side="INNER", sampling="VERTICES")
-    select(source)
-    made = rebuild(source)
-    solid, expected = (np.ptp(positions(mesh), axis=0) for mesh in (evaluated(made), source.data))
-    assert solid == pytest.approx(size * expected, rel=0.03)
-    found = volume(evaluated(made)) / size**3
+    source, _, expected = scaled_axis(size)
+    solid = evaluated(rebuild(source))
+    assert np.ptp(positions(solid), axis=0) == pytest.approx(expected, rel=0.03)
     # Chords of the axis cut off a hundredth, and versions of OpenVDB differ by 1.4 %.
-    assert 0.99 < found / volume(source.data) < 1.024
+    assert 0.99 < volume(solid) / size**3 / volume(source.data) < 1.024
 
 
-@pytest.mark.parametrize("size", [1e-9])
-def test_the_group_by_itself_takes_small_axes(size):
+def test_the_group_by_itself_takes_small_axes():
     """An artist adds the modifier by hand, without the voxel size that the operator sets."""
-    source = ellipsoid()
-    source.scale = (size,) * 3
-    bpy.context.view_layer.update()
-    axis = compute(form="CLEAN", side="INNER", sampling="VERTICES")
+    _, axis, expected = scaled_axis(1e-9)
     addon("bridge.nodes.groups").add_modifier(axis, "REBUILD")
-    bpy.context.view_layer.update()
-    assert np.ptp(positions(evaluated(axis)), axis=0) == pytest.approx(
-        size * np.ptp(positions(source.data), axis=0), rel=0.05
-    )
+    assert np.ptp(positions(evaluated(axis)), axis=0) == pytest.approx(expected, rel=0.05)
 
 
 def test_others_step_back_and_are_measured_all_the_same():
     """Blender does not evaluate hidden objects, and a modifier of the source must count in what is measured again."""
     source = torus()
     source.modifiers.new("Wave", "DISPLACE").strength = 0.1
-    axis = compute(form="CLEAN", side="INNER")
-    assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}
-    made = bpy.context.object
+    axis = compute(**INSIDE)
+    made = press("medial_axis_rebuild", alone=True)
     assert made.get("ma_rebuilt") and made.select_get() and made.visible_get()
     assert source.hide_get() and axis.hide_get() and not source.hide_viewport
     first = made["ma_rebuilt_mean"]
@@ -161,10 +147,9 @@ def test_others_step_back_and_are_measured_all_the_same():
 
 def test_the_axis_may_be_where_the_view_layer_does_not_show_it():
     source = torus()
-    axis = compute(form="CLEAN", side="INNER")
+    axis = compute(**INSIDE)
     exclude(axis)
-    select(source)
-    assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}
+    press("medial_axis_rebuild", source, alone=True)
     made = rebuilt(source)
     assert made.visible_get() and made.select_get() and made["ma_rebuilt_mean"] < 0.01
     assert not axis.visible_get()
@@ -172,9 +157,9 @@ def test_the_axis_may_be_where_the_view_layer_does_not_show_it():
 
 def test_colours_change_without_teeth():
     """Next to each other vertices have nearly the same radius; that of the nearest ball alone jumps from row to row."""
-    bpy.ops.mesh.primitive_cone_add(vertices=64, radius1=1.0, depth=3.0)
+    source = added("cone", vertices=64, radius1=1.0, depth=3.0)
     compute(form="CLEAN", sampling="SURFACE", samples=4_000)
-    mesh = evaluated(rebuild(bpy.data.objects["Cone"], Voxel=0.015))
+    mesh = evaluated(rebuild(source, Voxel=0.015))
     radius = attribute(mesh, "ma_radius")
     edges = np.array([edge.vertices for edge in mesh.edges])
     steps = np.abs(np.diff(radius[edges], axis=1))

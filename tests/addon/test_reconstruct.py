@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import attribute, positions, reports, result_of, world_positions
-from scene import compute, refuse, scan, select, torus
+from measure import attribute, positions, reports, world_positions
+from scene import compute, press, refuse, scan, select, torus
 from support.clouds import on_ellipsoid
 from test_rows import rows, seen
 from test_transforms import PLACES, place
@@ -17,22 +17,18 @@ def surface_of(source):
     return addon("bridge.surface_object").surface_of(source)
 
 
-def surfaces():
-    return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
+def reconstruct(*source):
+    """The surface of these points, or of the selection."""
+    return press("tight_cocone_surface", *source)
 
 
-def reconstruct():
-    """Run the operator on the selection; it must succeed."""
-    assert bpy.ops.object.tight_cocone_surface() == {"FINISHED"}
+def torus_scan():
+    return scan("Ring", positions(torus().data))
 
 
-def torus_scan(name="Ring"):
-    return scan(name, positions(torus().data))
-
-
-def two_scans(name="Two"):
+def two_scans():
     points, _ = on_ellipsoid(1500)
-    return scan(name, np.concatenate([points, points * 0.5 + (3, 0, 0)]))
+    return scan("Two", np.concatenate([points, points * 0.5 + (3, 0, 0)]))
 
 
 def assert_closed(thing, euler):
@@ -54,8 +50,8 @@ def assert_closed(thing, euler):
 )
 def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
     source = make()
-    reconstruct()
-    surface = surface_of(source)
+    surface = reconstruct()
+    assert surface == surface_of(source)
     assert surface.name == f"{source.name} Surface" and surface.type == "MESH"
     assert list(surface.users_collection) == list(source.users_collection)
     assert_closed(surface, euler)
@@ -78,9 +74,8 @@ def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
 def test_what_is_wrong_is_counted_and_said(capfd):
     points, _ = on_ellipsoid(5000)
     points += np.random.default_rng(3).normal(scale=0.01, size=points.shape)
-    source = scan(points=points)
-    reconstruct()
-    surface = surface_of(source)
+    scan(points=points)
+    surface = reconstruct()
     off, edges = surface["ma_off_surface"], surface["ma_nonmanifold_edges"]
     assert off == 5000 - len(surface.data.vertices) > 0
     mesh = bmesh.new()
@@ -97,17 +92,16 @@ def test_what_is_wrong_is_counted_and_said(capfd):
 
 def test_running_again_updates_the_same_object():
     source = scan()
-    reconstruct()
-    surface, meshes = surface_of(source), len(bpy.data.meshes)
+    surface, meshes = reconstruct(), len(bpy.data.meshes)
     surface.data.name = "My Skin"
     own = bpy.data.materials.new("Own")
     surface.data.materials.append(own)
     surface.location = (5, 5, 5)
     source.data.vertices[0].co *= 1.05
     source.data.update()
-    select(source)
-    reconstruct()
-    assert surfaces() == [surface] and surface.data.name == "My Skin"
+    reconstruct(source)
+    is_surface = addon("bridge.surface_object").is_surface
+    assert [*filter(is_surface, bpy.data.objects)] == [surface] and surface.data.name == "My Skin"
     assert list(surface.data.materials) == [own] and len(bpy.data.meshes) == meshes
     bpy.context.view_layer.update()
     assert surface.matrix_world.translation.length == 0
@@ -116,29 +110,22 @@ def test_running_again_updates_the_same_object():
 
 def test_surface_whose_source_is_gone_is_a_mesh_like_any_other():
     source = scan()
-    reconstruct()
-    surface = surface_of(source)
+    surface = reconstruct()
     bpy.data.objects.remove(source)
-    select(surface)
-    reconstruct()
+    assert reconstruct(surface) == surface_of(surface)
     assert surface_of(surface).name == "Scan Surface Surface"
 
 
 def test_surface_is_a_source_and_its_axis_that_of_the_scan():
     source = scan()
-    compute()
-    select(source)
-    reconstruct()
-    surface_of(source)
+    first = compute()
+    reconstruct(source)
     result = compute()
-    assert result.name == "Scan Surface Medial Axis" and result_of(source) != result
+    assert result.name == "Scan Surface Medial Axis" and first != result
     assert result["ma_inside"] == "Inside from Surface: the faces are closed"
-    assert len(result.data.polygons) == len(result_of(source).data.polygons)
-    np.testing.assert_allclose(
-        attribute(result.data, "ma_radius"),
-        attribute(result_of(source).data, "ma_radius"),
-        rtol=1e-5,
-    )
+    assert len(result.data.polygons) == len(first.data.polygons)
+    radii = [attribute(axis.data, "ma_radius") for axis in (result, first)]
+    np.testing.assert_allclose(*radii, rtol=1e-5)
 
 
 @pytest.mark.parametrize("name", ["mirrored", "everything"])
@@ -146,16 +133,13 @@ def test_surface_lies_where_the_points_are(name):
     """Other places: test_transforms.py."""
     source = scan()
     place(source, PLACES[name], name == "everything")
-    select(source)
-    reconstruct()
-    surface = surface_of(source)
+    surface = reconstruct(source)
     bpy.context.view_layer.update()
     assert surface.matrix_world.to_scale()[:] == pytest.approx((1, 1, 1), abs=1e-6)
     assert surface.matrix_world.determinant() > 0
     mine, theirs = world_positions(surface), world_positions(source)
-    size = np.ptp(theirs, axis=0).max()
     assert len(mine) == len(theirs)
-    np.testing.assert_allclose(mine, theirs, atol=1e-5 * size)
+    np.testing.assert_allclose(mine, theirs, atol=1e-5 * np.ptp(theirs, axis=0).max())
     assert_closed(surface, 2)
 
 
@@ -172,12 +156,11 @@ def test_refusal_while_another_computation_runs_names_it():
 
 def test_panel_knows_the_surface():
     source = scan()
-    reconstruct()
-    properties = addon("ui.settings.properties")
-    assert properties.shown_surface(bpy.context) == surface_of(source)
+    surface, properties = reconstruct(), addon("ui.settings.properties")
     assert properties.shown_result(bpy.context) is None
     assert any(row[0] == "Triangles" for row in rows(seen())), "Result has its figures"
-    select(source)
-    assert properties.shown_surface(bpy.context) == surface_of(source)
-    compute()
-    assert properties.shown_result(bpy.context) == result_of(source)
+    for thing in (surface, source):
+        select(thing)
+        assert properties.shown_surface(bpy.context) == surface
+    result = compute()
+    assert properties.shown_result(bpy.context) == result

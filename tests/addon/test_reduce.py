@@ -7,18 +7,16 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from mathutils.kdtree import KDTree
 from measure import attribute, contents, evaluated, positions, read, reports, result_of, volume
-from scene import box, compute, ellipsoid, export, refuse, select, suzanne
+from scene import box, compute, ellipsoid, export, press, refuse, select, suzanne
 
 
 def reduced_of(source):
     return addon("bridge.axis.reduced_object").reduced_of(source)
 
 
-def reduce(source, vertices):
-    select(source)
-    assert bpy.ops.object.medial_axis_reduce(vertices=vertices) == {"FINISHED"}
+def reduce(source, vertices, **options):
+    press("medial_axis_reduce", source, vertices=vertices, **options)
     return reduced_of(source)
 
 
@@ -28,8 +26,7 @@ def test_a_small_mesh_with_radii_beside_its_axis(capfd):
     compute(form="CLEAN", side="INNER")
     reports(capfd)
     made = reduce(source, 40)
-    sentence = reports(capfd)[-1][1]
-    mean, largest = (float(x) for x in re.findall(r"([\d.]+) %", sentence))
+    mean, largest = (float(x) for x in re.findall(r"([\d.]+) %", reports(capfd)[-1][1]))
     assert mean < 0.3 and largest < 2
     assert len(made.data.vertices) == 40
     assert {len(polygon.vertices) for polygon in made.data.polygons} == {3}
@@ -45,28 +42,21 @@ def test_by_a_button_it_takes_the_place_of_its_axis():
     made = reduce(source, 40)
     assert axis.visible_get(), "a script hides nothing"
     bpy.data.objects.remove(made)
-    select(source)
-    assert bpy.ops.object.medial_axis_reduce(vertices=40, alone=True) == {"FINISHED"}
-    made = reduced_of(source)
+    made = reduce(source, 40, alone=True)
     assert not axis.visible_get() and source.visible_get()
     assert made.visible_get() and made.select_get() and bpy.context.object == made
     axis.hide_set(False)
-    assert bpy.ops.object.medial_axis_reduce(vertices=30, alone=True) == {"FINISHED"}
+    press("medial_axis_reduce", vertices=30, alone=True)
     assert axis.visible_get(), "it steps back once"
 
 
 def test_no_vertex_runs_away_from_the_axis():
     source = suzanne(levels=2)
-    compute(form="CLEAN", side="INNER")
-    whole = result_of(source).data
-    made = reduce(source, 200).data
-    tree = KDTree(len(whole.vertices))
-    for vertex in whole.vertices:
-        tree.insert(vertex.co, vertex.index)
-    tree.balance()
-    distance = max(tree.find(vertex.co)[2] for vertex in made.vertices)
+    whole = positions(compute(form="CLEAN", side="INNER").data)
+    few = positions(reduce(source, 200).data)
+    distance = max(np.linalg.norm(whole - place, axis=1).min() for place in few)
     # Once a vertex lay a ninth of the diagonal away, with a ball of radius 0 at the surface.
-    assert distance < 0.04 * np.linalg.norm(np.ptp(positions(whole), axis=0))
+    assert distance < 0.04 * np.linalg.norm(np.ptp(whole, axis=0))
 
 
 def test_it_is_made_once_and_again_for_another_number():
@@ -74,66 +64,49 @@ def test_it_is_made_once_and_again_for_another_number():
     compute(side="INNER")
     made = reduce(source, 30)
     before = contents()
-    select(made)
-    assert bpy.ops.object.medial_axis_reduce(vertices=12) == {"FINISHED"}
+    press("medial_axis_reduce", made, vertices=12)
     assert reduced_of(source) == made and contents() == before and len(made.data.vertices) == 12
 
 
-def test_the_solid_of_a_small_mesh_is_rebuilt(capfd):
+def test_the_solid_of_a_small_mesh_is_rebuilt():
     source = ellipsoid(segments=4)
     compute(form="CLEAN", side="INNER")
     made = reduce(source, 40)
-    select(made)
-    reports(capfd)
-    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    press("medial_axis_rebuild", made)
     solid = addon("bridge.rebuilt_object").rebuilt_of(made)
     assert volume(evaluated(solid)) / volume(source.data) == pytest.approx(1, abs=0.03)
     assert solid["ma_rebuilt_mean"] < 0.005
 
 
-def test_it_is_exported(tmp_path):
+def test_it_is_exported_and_computing_from_it_computes_its_source(tmp_path):
     source = ellipsoid()
     compute(side="INNER")
     made = reduce(source, 20)
     select(made)
-    path = tmp_path / "small.ma"
+    before, path = contents(), tmp_path / "small.ma"
     export(path)
-    read = addon("core.files.read_ma").read_ma(path)
-    assert np.allclose(read.vertices, positions(made.data), atol=1e-6)
-
-
-def test_computing_from_it_computes_its_source():
-    source = ellipsoid()
-    compute(side="INNER")
-    select(reduce(source, 20))
-    before = contents()
+    vertices = addon("core.files.read_ma").read_ma(path).vertices
+    assert np.allclose(vertices, positions(made.data), atol=1e-6)
     compute(side="INNER")
     assert contents() == before
 
 
 def test_without_an_axis_it_says_so():
-    source = ellipsoid()
-    select(source)
+    select(ellipsoid())
     assert not bpy.ops.object.medial_axis_reduce.poll()
     refuse("Select a medial axis", "medial_axis_reduce")
 
 
-def faces_of(mesh):
-    return [tuple(polygon.vertices) for polygon in mesh.polygons]
-
-
 def test_a_box_is_thirteen_polygons_as_the_library_makes_them():
-    source = box(2.0, 1.4, 0.8)
+    source, library = box(2.0, 1.4, 0.8), addon("library")
     compute(form="CLEAN", side="INNER", sampling="SURFACE", samples=3000)
-    made = reduce(source, 100)
-    assert (len(made.data.vertices), len(made.data.polygons)) == (12, 13)
-    assert not made.data.validate(verbose=True)
+    made = reduce(source, 100).data
+    assert (len(made.vertices), len(made.polygons)) == (12, 13)
+    assert not made.validate(verbose=True)
     shape = read(source)
-    found = addon("library").compute(
-        shape.points, shape.triangles, sampling="surface", samples=3000
-    )
-    small = addon("library").reduce(found, 100)
-    assert np.array_equal(positions(made.data), small.vertices.astype(np.float32))
-    assert np.array_equal(attribute(made.data, "ma_radius"), small.radius.astype(np.float32))
+    found = library.compute(shape.points, shape.triangles, sampling="surface", samples=3000)
+    small = library.reduce(found, 100)
+    assert np.array_equal(positions(made), small.vertices.astype(np.float32))
+    assert np.array_equal(attribute(made, "ma_radius"), small.radius.astype(np.float32))
     corners = np.split(small.face_vertices, small.face_offsets[1:-1])
-    assert faces_of(made.data) == [tuple(face.tolist()) for face in corners]
+    assert [tuple(face.vertices) for face in made.polygons] == [tuple(c.tolist()) for c in corners]

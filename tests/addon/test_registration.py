@@ -13,18 +13,8 @@ from installed import MODULE, addon
 from scene import compute, ellipsoid, link
 
 SAMPLING = (
-    "sampling",
-    "prepare",
-    "samples",
-    "spacing",
-    "epsilon",
-    "budget",
-    "wrap_opening",
-    "sharp_angle",
-    "smooth",
-    "keep_vertices",
-    "pairs",
-    "seed",
+    *("sampling", "prepare", "samples", "spacing", "epsilon", "budget"),
+    *("wrap_opening", "sharp_angle", "smooth", "keep_vertices", "pairs", "seed"),
 )
 OPTIONS = (
     *("form", "simplify", "erode", "spike", "limb", "detail", "crisp"),
@@ -33,8 +23,24 @@ OPTIONS = (
 )
 
 
-def menu_texts(menu):
-    return [function.__module__ for function in menu._dyn_ui_initialize()]
+def present():
+    types = bpy.types
+    found = {name: hasattr(types, name) for name in TYPES.split()}
+    for menu, module in (
+        (types.TOPBAR_MT_file_import, "ui.axis.compute_sequence"),
+        (types.TOPBAR_MT_file_export, "ui.axis.export_axis"),
+        (types.VIEW3D_MT_object, "ui.panels.menus"),
+        (types.VIEW3D_MT_object_context_menu, "ui.panels.menus"),
+    ):
+        entries = [function.__module__ for function in menu._dyn_ui_initialize()]
+        found[menu.__name__] = f"{MODULE}.{module}" in entries
+    return {
+        **found,
+        "sequence folder": hasattr(types.Scene, "medial_axis_folder"),
+        "settings": hasattr(types.Scene, "medial_axis"),
+        "progress": hasattr(types.WindowManager, "medial_axis_progress"),
+        "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
+    }
 
 
 TYPES = """
@@ -45,34 +51,13 @@ VIEW3D_PT_medial_axis_sampling
 """
 
 
-def present():
-    return {
-        **{name: hasattr(bpy.types, name) for name in TYPES.split()},
-        "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
-        "sequence menu": f"{MODULE}.ui.axis.compute_sequence"
-        in menu_texts(bpy.types.TOPBAR_MT_file_import),
-        "settings": hasattr(bpy.types.Scene, "medial_axis"),
-        "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
-        "object menu": f"{MODULE}.ui.panels.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
-        "context menu": f"{MODULE}.ui.panels.menus"
-        in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
-        "export menu": f"{MODULE}.ui.axis.export_axis"
-        in menu_texts(bpy.types.TOPBAR_MT_file_export),
-        "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
-    }
-
-
-def test_everything_is_registered():
-    assert all(present().values()), present()
-
-
 def test_disable_removes_everything_and_enable_brings_it_back():
+    assert all(present().values()), present()
     for _ in range(2):
         bpy.ops.preferences.addon_disable(module=MODULE)
         assert not any(present().values()), present()
-        assert not [
-            name for name in sys.modules if name.startswith(f"{MODULE}.") and ".lib" not in name
-        ]
+        left = (name for name in sys.modules if name.startswith(f"{MODULE}."))
+        assert not [name for name in left if ".lib" not in name]
         bpy.ops.preferences.addon_enable(module=MODULE)
         assert all(present().values()), present()
     assert compute(ellipsoid()) is not None
@@ -81,18 +66,16 @@ def test_disable_removes_everything_and_enable_brings_it_back():
 def test_registration_leaves_the_file_alone():
     link("Something", [(0, 0, 0)])
     kinds = ("objects", "meshes", "materials", "collections", "node_groups")
-    before = {kind: [thing.name for thing in getattr(bpy.data, kind)] for kind in kinds}
+    names = lambda: {kind: [thing.name for thing in getattr(bpy.data, kind)] for kind in kinds}
+    before = names()
     bpy.ops.preferences.addon_disable(module=MODULE)
     bpy.ops.preferences.addon_enable(module=MODULE)
-    assert {kind: [thing.name for thing in getattr(bpy.data, kind)] for kind in kinds} == before
+    assert names() == before
 
 
 def test_importing_needs_no_blender():
     source = Path(addon().__file__).read_text(encoding="utf-8")
-    top = [
-        node for node in ast.parse(source).body if isinstance(node, (ast.Import, ast.ImportFrom))
-    ]
-    assert top == []
+    assert not [n for n in ast.parse(source).body if isinstance(n, (ast.Import, ast.ImportFrom))]
 
 
 def test_one_version():
@@ -113,12 +96,8 @@ def test_options_of_operator_and_panel_come_from_settings(name):
 
 
 # The property of a number has these from its option.
-FLOATS = {
-    "default": "default",
-    "hard_min": "minimum",
-    "hard_max": "maximum",
-    "soft_max": "soft_maximum",
-}
+FLOATS = {"default": "default", "hard_min": "minimum", "hard_max": "maximum"}
+FLOATS["soft_max"] = "soft_maximum"
 INTEGERS = FLOATS | {"soft_min": "soft_minimum"}
 
 
@@ -150,46 +129,44 @@ def test_defaults_are_those_of_the_compiled_module():
     settings = addon("core.settings")
     module = addon("core.machine.native").load()
     default = settings.Settings()
-    # pybind11 writes the types in other words from version to version.
+    for function, names in (
+        (module.MedialAnalysis.extract, ("theta", "rho", "limit_set")),
+        (module.sample_surface, ("sharp_angle", "keep_vertices", "seed")),
+    ):
+        # pybind11 writes the types in other words from version to version.
+        signature = function.__doc__.splitlines()[0]
+        for name in names:
+            value = getattr(default, name)
+            assert re.search(rf"\b{name}: [^=]*= {value!r}\b", signature), signature
     signature = module.MedialAnalysis.extract.__doc__.splitlines()[0]
-    for name in ("theta", "rho", "limit_set"):
-        assert re.search(rf"\b{name}: [^=]*= {getattr(default, name)!r}\b", signature), signature
     assert f"Rule.{default.rule.name}:" in signature
     assert f"Criteria.{default.criteria.name}:" in signature
-    for enum in (settings.Rule, settings.Criteria):
-        assert {member.name for member in enum} <= set(getattr(module, enum.__name__).__members__)
-    signature = module.sample_surface.__doc__.splitlines()[0]
-    for name in ("sharp_angle", "keep_vertices", "seed"):
-        assert re.search(rf"\b{name}: [^=]*= {getattr(default, name)!r}\b", signature), signature
-    for side in set(settings.Side) - {settings.Side.AUTOMATIC}:
-        assert side.name in module.Side.__members__
-    for source in set(settings.SidesFrom) - {settings.SidesFrom.WRAP}:  # it makes other faces
-        assert source.name in module.SidesFrom.__members__
+    others = {settings.Side.AUTOMATIC, settings.SidesFrom.WRAP}  # which makes other faces
+    for enum in (settings.Rule, settings.Criteria, settings.Side, settings.SidesFrom):
+        names = {member.name for member in set(enum) - others}
+        assert names <= set(getattr(module, enum.__name__).__members__)
 
 
 def test_what_does_not_apply_is_grey():
     settings = addon("core.settings")
+    modes, applies = settings.SamplingMode, settings.applies
     of = {
-        name: {kind.name for kind in settings.SamplingMode if settings.applies(name, kind, 0.0)}
+        name: {kind.name for kind in modes if applies(name, kind, 0.0)}
         for name in settings.SAMPLING_OPTIONS
     }
     everywhere, faces = {"AUTOMATIC", "VERTICES", "SURFACE", "ADAPTIVE"}, {"AUTOMATIC", "ADAPTIVE"}
-    assert (
-        of["epsilon"] == of["wrap_opening"] == of["prepare"] == everywhere and of["budget"] == faces
-    )
-    others = set(of) - {"epsilon", "wrap_opening", "prepare", "budget"}
-    assert all(of[name] == faces | {"SURFACE"} for name in others)
-    assert not settings.applies("samples", settings.SamplingMode.SURFACE, 1.0)
-    vertices = settings.SamplingMode.VERTICES
-    assert settings.applies("smooth", vertices, 0.0, settings.Settings().options_of_faces)
-    assert not settings.applies("seed", vertices, 0.0, settings.Settings().options_of_faces)
+    known = dict.fromkeys(("epsilon", "wrap_opening", "prepare"), everywhere) | {"budget": faces}
+    assert of == dict.fromkeys(of, faces | {"SURFACE"}) | known
+    assert not applies("samples", modes.SURFACE, 1.0)
+    options = settings.Settings().options_of_faces
+    assert applies("smooth", modes.VERTICES, 0.0, options)
+    assert not applies("seed", modes.VERTICES, 0.0, options)
     assert {"sampling", *of} == set(SAMPLING)
 
 
 def test_rounded_limits_and_defaults_mean_the_exact_numbers():
-    exact = addon("ui.settings.properties")._exact
+    exact, panel = addon("ui.settings.properties")._exact, bpy.context.scene.medial_axis
     theta = addon("core.settings").OPTIONS["theta"]
-    panel = bpy.context.scene.medial_axis
     assert panel.theta != theta.default
     assert exact(theta, panel.theta) == math.pi / 8
     panel.theta = math.pi / 2
@@ -198,23 +175,13 @@ def test_rounded_limits_and_defaults_mean_the_exact_numbers():
     assert exact(theta, 0.5) == 0.5
 
 
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"theta": -0.1},
-        {"theta": 1.6},
-        {"rho": -1.0},
-        {"rho": math.nan},
-        {"samples": 99},
-        {"spacing": 10.5},
-        {"epsilon": 0.0},
-        {"budget": 0},
-        {"sharp_angle": 0.0},
-        {"seed": -1},
-    ],
-)
-def test_settings_out_of_range_are_refused(values):
-    with pytest.raises(
-        addon("core.errors").InvalidInputError, match=rf"Expected {next(iter(values))} .*, found"
-    ):
-        addon("core.settings").Settings(**values)
+OUT_OF_RANGE = [("theta", -0.1), ("theta", 1.6), ("rho", -1.0), ("rho", math.nan), ("samples", 99)]
+OUT_OF_RANGE += [("spacing", 10.5), ("epsilon", 0.0), ("sharp_angle", 0.0)]
+OUT_OF_RANGE += [("budget", 0), ("seed", -1)]
+
+
+@pytest.mark.parametrize(("name", "value"), OUT_OF_RANGE)
+def test_settings_out_of_range_are_refused(name, value):
+    error = addon("core.errors").InvalidInputError
+    with pytest.raises(error, match=rf"Expected {name} .*, found"):
+        addon("core.settings").Settings(**{name: value})

@@ -8,49 +8,34 @@ import numpy as np
 import pytest
 from installed import addon
 from mathutils import Matrix
-from measure import contents, evaluated, positions, world_positions
-from scene import added, link, refuse, select
+from measure import evaluated, positions, world_positions
+from scene import added, in_edit_mode, link, press, refuse, select
+
+JOINTS = {  # the left half of a figure: a place, and how thick it is there
+    "pelvis": (0, 0, 1.0, 0.2), "chest": (0, 0, 1.5, 0.16), "head": (0, 0, 2.0, 0.13),
+    "hip": (0.18, 0, 0.85, 0.12), "knee": (0.2, -0.09, 0.4, 0.08), "ankle": (0.2, 0.0, -0.05, 0.06),
+    "shoulder": (0.25, 0, 1.5, 0.08), "elbow": (0.5, 0.08, 1.2, 0.06), "hand": (0.75, 0.0, 0.9, 0.05),
+}  # fmt: skip
+BONES = [("pelvis", "chest"), ("chest", "head"), ("pelvis", "hip"), ("hip", "knee")]
+BONES += [("knee", "ankle"), ("chest", "shoulder"), ("shoulder", "elbow"), ("elbow", "hand")]
 
 
-def figure(name="Figure", tail=False):
+def figure(name="Figure"):
     """A figure by Blender's Skin modifier, symmetric in X, that looks to -Y; its knees bend, its arms hang aslant."""
-    joints = {
-        "pelvis": (0, 0, 1.0, 0.2),
-        "chest": (0, 0, 1.5, 0.16),
-        "head": (0, 0, 2.0, 0.13),
-        "hip": (0.18, 0, 0.85, 0.12),
-        "knee": (0.2, -0.09, 0.4, 0.08),
-        "ankle": (0.2, 0.0, -0.05, 0.06),
-        "shoulder": (0.25, 0, 1.5, 0.08),
-        "elbow": (0.5, 0.08, 1.2, 0.06),
-        "hand": (0.75, 0.0, 0.9, 0.05),
-    }
-    bones = [
-        ("pelvis", "chest"),
-        ("chest", "head"),
-        ("pelvis", "hip"),
-        ("hip", "knee"),
-        ("knee", "ankle"),
-    ]
-    bones += [("chest", "shoulder"), ("shoulder", "elbow"), ("elbow", "hand")]
-    if tail:
-        joints |= {"rump": (0, 0.35, 0.95, 0.09), "tail": (0, 0.9, 0.8, 0.05)}
-        bones += [("pelvis", "rump"), ("rump", "tail")]
-    rows, places, edges = {}, [], []
+    rows, places, edges = {}, [], set()
     for side in (1, -1):
-        for joint, (x, *rest) in joints.items():
+        for joint, (x, *rest) in JOINTS.items():
             key = (joint, side if x else 0)
             if key not in rows:
                 rows[key] = len(places)
                 places.append((side * x, *rest))
-        edges += [tuple(rows[j, side if joints[j][0] else 0] for j in bone) for bone in bones]
-    made = link(name, [place[:3] for place in places], [])
-    made.data.edges.add(len(set(edges)))
-    made.data.edges.foreach_set("vertices", np.ravel(sorted(set(edges))))
+        edges |= {tuple(rows[j, side if JOINTS[j][0] else 0] for j in bone) for bone in BONES}
+    made = link(name, [place[:3] for place in places], edges=sorted(edges))
     made.modifiers.new("Skin", "SKIN")
-    for vertex, place in zip(made.data.skin_vertices[0].data, places, strict=True):
+    skin = made.data.skin_vertices[0].data
+    for vertex, place in zip(skin, places, strict=True):
         vertex.radius = place[3], place[3]
-    made.data.skin_vertices[0].data[rows["pelvis", 0]].use_root = True
+    skin[rows["pelvis", 0]].use_root = True
     made.modifiers.new("Round", "SUBSURF").levels = 3
     bpy.context.view_layer.update()
     bpy.ops.object.convert(target="MESH")
@@ -58,9 +43,14 @@ def figure(name="Figure", tail=False):
 
 
 def make(source, **settings):
-    select(source)
-    assert bpy.ops.object.medial_axis_armature(**settings) == {"FINISHED"}
+    press("medial_axis_armature", source, **settings)
     return addon("bridge.skeleton.armature_object").rig_of(source)
+
+
+def assert_without_targets(thing):
+    """No bone is a control, and none is bound by one."""
+    assert not any(bone.name.startswith("IK") for bone in thing.data.bones)
+    assert not any(len(bone.constraints) or bone.lock_ik_y for bone in thing.pose.bones)
 
 
 def shown(source):
@@ -70,21 +60,17 @@ def shown(source):
 def test_symmetrize_gives_the_same_bones_again():
     """Blender mirrors the left side, and its right side is ours, with the roll."""
     thing = make(figure(), bind="NONE")
-    before = {
-        b.name: (b.matrix_local.copy(), b.parent.name)
-        for b in thing.data.bones
-        if b.name.endswith(".R")
-    }
+    of_right = lambda: {bone.name: bone for bone in thing.data.bones if bone.name.endswith(".R")}
+    before = {b.name: (b.matrix_local.copy(), b.parent.name) for b in of_right().values()}
     select(thing)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bones = thing.data.edit_bones
-    for bone in [bone for bone in bones if bone.name.endswith(".R")]:
-        bones.remove(bone)
-    for bone in bones:
-        bone.select = bone.select_head = bone.select_tail = bone.name.endswith(".L")
-    assert bpy.ops.armature.symmetrize(direction="POSITIVE_X") == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert before and {b.name for b in thing.data.bones if b.name.endswith(".R")} == set(before)
+    with in_edit_mode():
+        bones = thing.data.edit_bones
+        for name in before:
+            bones.remove(bones[name])
+        for bone in bones:
+            bone.select = bone.select_head = bone.select_tail = bone.name.endswith(".L")
+        assert bpy.ops.armature.symmetrize(direction="POSITIVE_X") == {"FINISHED"}
+    assert before and set(of_right()) == set(before)
     for name, (matrix, parent) in before.items():
         assert thing.data.bones[name].parent.name == parent
         np.testing.assert_allclose(thing.data.bones[name].matrix_local, matrix, atol=2e-3)
@@ -96,12 +82,11 @@ def test_knees_and_elbows_bend_in_their_plane():
     for limb, axis in (("leg", (0.95, 0.3, 0)), ("arm", (0.7, 0, 0.7))):
         upper, lower = (thing.data.bones[f"{limb}.0{step}.L"] for step in (1, 2))
         assert abs(np.array(lower.matrix_local.to_3x3().col[0]) @ axis) > 0.85
-        pose = thing.pose.bones[lower.name]
-        straight = np.array(pose.vector) @ np.array(thing.pose.bones[upper.name].vector)
-        pose.rotation_mode = "XYZ"
-        pose.rotation_euler = (math.radians(30), 0, 0)
+        pose, other = thing.pose.bones[lower.name], thing.pose.bones[upper.name]
+        straight = pose.vector @ other.vector
+        pose.rotation_mode, pose.rotation_euler = "XYZ", (math.radians(30), 0, 0)
         bpy.context.view_layer.update()
-        assert np.array(pose.vector) @ np.array(thing.pose.bones[upper.name].vector) < straight
+        assert pose.vector @ other.vector < straight
 
 
 def test_limbs_reach_for_their_targets():
@@ -111,9 +96,8 @@ def test_limbs_reach_for_their_targets():
     assert not target.bone.use_deform and "IK.leg.L" not in source.vertex_groups
     rest = shown(source)
     np.testing.assert_allclose(rest, positions(source.data), atol=2e-3)  # nothing moves yet
-    target.location = target.bone.matrix_local.to_3x3().inverted() @ (
-        thing.data.bones["pelvis"].vector.normalized() * 0.25
-    )
+    up = thing.data.bones["pelvis"].vector.normalized() * 0.25
+    target.location = target.bone.matrix_local.to_3x3().inverted() @ up
     bpy.context.view_layer.update()
     assert (foot.tail - target.head).length < 0.02
     knee = thing.pose.bones["leg.01.L"].tail
@@ -121,8 +105,7 @@ def test_limbs_reach_for_their_targets():
     moved = np.linalg.norm(shown(source) - rest, axis=1)
     assert moved.max() > 0.2 and moved[rest[:, 0] < -0.15].max() < 0.01
     make(source, per_limb=2)
-    assert not any(bone.name.startswith("IK") for bone in thing.data.bones)
-    assert not any(len(bone.constraints) or bone.lock_ik_y for bone in thing.pose.bones)
+    assert_without_targets(thing)
 
 
 def own_armature():
@@ -147,23 +130,18 @@ def test_limbs_lie_along_lines_through_their_controls():
     assert not any("IK" in group.name for group in source.vertex_groups)
     rest = shown(source)
     np.testing.assert_allclose(rest, positions(source.data), atol=3e-4)
-    end, chain = (
-        thing.pose.bones["IK.arm.05.L"],
-        [thing.pose.bones[f"arm.0{k}.L"] for k in range(1, 5)],
-    )
+    end, middle = (thing.pose.bones[f"IK.arm.0{k}.L"] for k in (5, 3))
+    chain = [thing.pose.bones[f"arm.0{k}.L"] for k in range(1, 5)]
     start = chain[0].head.copy()
-    end.location = (0.15, 0.0, 0.1)
-    thing.pose.bones["IK.arm.03.L"].location = (0.0, 0.0, 0.2)
+    end.location, middle.location = (0.15, 0.0, 0.1), (0.0, 0.0, 0.2)
     bpy.context.view_layer.update()
     assert (chain[-1].tail - end.head).length < 0.01 and (chain[0].head - start).length < 1e-4
-    assert (end.head - end.bone.head_local).length > 0.15
-    middle = thing.pose.bones["IK.arm.03.L"]
     assert (chain[1].tail - middle.head).length < 0.1
-    assert (middle.head - middle.bone.head_local).length > 0.15
+    for control in (end, middle):
+        assert (control.head - control.bone.head_local).length > 0.15
     moved = np.linalg.norm(shown(source) - rest, axis=1)
     assert moved.max() > 0.12 and moved[rest[:, 0] < -0.15].max() < 1e-3
-    for name in ("IK.arm.05.L", "IK.arm.03.L"):
-        thing.pose.bones[name].location = (0, 0, 0)
+    end.location = middle.location = (0, 0, 0)
     root = thing.pose.bones["pelvis"]
     root.rotation_mode, root.rotation_euler, root.location = "XYZ", (0.2, 0.3, 0.4), (0.3, 0.1, 0)
     bpy.context.view_layer.update()
@@ -190,8 +168,7 @@ def test_lines_of_limbs_are_made_anew_and_go():
     make(source, per_limb=3, ik="TARGET", armature="Cast")
     assert not lines_of(cast) and not bpy.data.curves
     make(source, per_limb=3, armature="Cast")
-    assert not any(len(bone.constraints) or bone.lock_ik_y for bone in cast.pose.bones)
-    assert not any(bone.name.startswith("IK") for bone in cast.data.bones)
+    assert_without_targets(cast)
 
 
 @pytest.mark.parametrize("bind", ["AXIS", "AUTOMATIC"])
@@ -214,8 +191,8 @@ def test_bones_are_added_to_an_armature_that_is_there(bind):
         np.testing.assert_allclose(world_positions(source), before, atol=1e-4)
         assert [m.object for m in source.modifiers] == [cast]
     name = next(b.name for b in cast.data.bones if b.name.startswith("arm.01.L"))
-    cast.pose.bones[name].rotation_mode = "XYZ"
-    cast.pose.bones[name].rotation_euler = (1.0, 0, 0)
+    bone = cast.pose.bones[name]
+    bone.rotation_mode, bone.rotation_euler = "XYZ", (1.0, 0, 0)
     moved = [np.abs(shown(s) - positions(s.data)).max() for s in (first, second)]
     assert max(moved) > 0.1 and min(moved) < 1e-3
 
@@ -224,19 +201,21 @@ def test_armatures_that_cannot_take_bones_are_refused():
     source = figure()
     cast = own_armature()
     select(source)
-    before = contents()
-    refuse("which is none; choose one", operator="medial_axis_armature", armature="nobody")
-    refuse("which is none; choose one", operator="medial_axis_armature", armature=source.name)
+
+    def refuse_bones(words, armature="Cast"):
+        refuse(words, operator="medial_axis_armature", armature=armature)
+
+    refuse_bones("which is none; choose one", "nobody")
+    refuse_bones("which is none; choose one", source.name)
     cast.hide_set(True)
-    refuse("show it, or make it local", operator="medial_axis_armature", armature="Cast")
+    refuse_bones("show it, or make it local")
     cast.hide_set(False)
     cast.scale = (0, 0, 0)
     bpy.context.view_layer.update()
-    refuse("apply the scale", operator="medial_axis_armature", armature="Cast")
-    assert contents() == before
+    refuse_bones("apply the scale")
     cast.scale = (1, 1, 1)
     make(source)
-    refuse("two would move it twice", operator="medial_axis_armature", armature="Cast")
+    refuse_bones("two would move it twice")
 
 
 def test_a_turned_figure_is_symmetric_in_its_armature():
@@ -248,8 +227,6 @@ def test_a_turned_figure_is_symmetric_in_its_armature():
     np.testing.assert_allclose(world_positions(source), before, atol=1e-5)
     for bone in thing.data.bones:
         if bone.name.endswith(".L"):
-            other = thing.data.bones[bone.name[:-1] + "R"]
-            np.testing.assert_allclose(
-                np.array(other.tail_local) * (-1, 1, 1), bone.tail_local, atol=0.1
-            )
+            mirrored = np.array(thing.data.bones[bone.name[:-1] + "R"].tail_local) * (-1, 1, 1)
+            np.testing.assert_allclose(mirrored, bone.tail_local, atol=0.1)
             assert (thing.matrix_world @ bone.tail_local).x > 0.0

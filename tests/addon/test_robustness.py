@@ -9,7 +9,7 @@ import time
 import bpy
 import pytest
 from installed import MODULE, program
-from scene import compute, export, select, torus
+from scene import compute, export, torus
 
 # Exports the active object to the file named after `--`, again and again.
 EXPORT_FOREVER = f"""
@@ -23,20 +23,20 @@ while True:
 @pytest.fixture
 def axis():
     """A medial axis of some ten thousand facets: to write it takes a while."""
-    source = torus()
-    source.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    torus().modifiers.new("Subdivision", "SUBSURF").levels = 2
     result = compute(side="BOTH", theta=0.0)
     assert len(result.data.polygons) > 10_000
-    select(result)
     return result
 
 
 @pytest.fixture
 def exporter(tmp_path):
-    """(blend file, target) -> another Blender that writes the target for ever; killed in the end."""
+    """(name of a new file, target) -> another Blender that writes the target for ever; killed in the end."""
     started = []
 
-    def start(blend, target):
+    def start(name, target):
+        blend = str(tmp_path / f"{name}.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=blend)
         command = [program(), "--background", "--factory-startup", blend]
         command += ["--python-exit-code", "1", "--python-expr", EXPORT_FOREVER, "--", target]
         log = open(tmp_path / f"{len(started)}.log", "wb")  # noqa: SIM115
@@ -47,11 +47,6 @@ def exporter(tmp_path):
     for process in started:
         process.kill()
         process.wait()
-
-
-def save(path):
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    return path
 
 
 def content_of(path):
@@ -96,7 +91,7 @@ def test_killed_while_writing_leaves_the_old_file(axis, exporter, tmp_path):
     folder = tmp_path / "target"
     folder.mkdir()
     target = folder / "axis.ma"
-    process = exporter(save(tmp_path / "a.blend"), target)
+    process = exporter("a", target)
     stopped_while_writing(process, folder)
     target.write_bytes(b"old")
     process.kill()
@@ -114,7 +109,7 @@ def test_two_blenders_write_the_same_file(axis, exporter, tmp_path):
     for name in "ab":
         axis.location.x += 5.0
         contents.append(content_of(tmp_path / f"{name}.ma"))
-        processes.append(exporter(save(tmp_path / f"{name}.blend"), target))
+        processes.append(exporter(name, target))
     assert contents[0] != contents[1]
     last, changes, end = -1, 0, patience()
     while changes < 10:

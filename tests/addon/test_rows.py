@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from installed import MODULE, addon
-from scene import select, suzanne
+from scene import added, press, suzanne
 
 MAIN = "VIEW3D_PT_medial_axis"
 
@@ -88,34 +88,34 @@ def newcomer():
 
 
 def test_few_rows_before_the_first_click_and_after_it(newcomer):
-    source = suzanne(levels=0)
+    suzanne(levels=0)
     assert len(rows(seen())) <= 9, rows(seen())
-    assert bpy.ops.object.medial_axis() == {"FINISHED"}
-    select(source)
+    press("medial_axis", select_result=False)
     assert newcomer.guided, "who has computed an axis is no longer new"
     assert len(rows(seen())) <= 18, rows(seen())
     assert len(rows(seen(is_colour=True))) <= 18
 
 
-def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words():
-    select(suzanne(levels=0))
+def drawn(panel):
     found = Layout()
-    panel = addon("ui.thickness.thickness_panel").VIEW3D_PT_medial_axis_thickness
     panel.draw(SimpleNamespace(layout=found), seen())
-    assert ["object.medial_axis_unsolidify"] in found.rows
-    assert ["object.medial_axis_hollow"] in found.rows
+    return found.rows
+
+
+def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words():
+    suzanne(levels=0)
+    found = drawn(bpy.types.VIEW3D_PT_medial_axis_thickness)
+    assert ["object.medial_axis_unsolidify"] in found and ["object.medial_axis_hollow"] in found
 
 
 def test_rig_tells_of_the_skeleton_that_was_made():
-    select(suzanne(levels=0))
-    bpy.ops.object.medial_axis_skeleton()
-    panel = addon("ui.skeleton.skeleton_panel").VIEW3D_PT_medial_axis_skeleton
-    panel.draw(SimpleNamespace(layout=(found := Layout())), seen())
-    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found.rows)
-    bpy.context.object["ma_frame"] = 1  # as one of a sequence
+    suzanne(levels=0)
+    skeleton = press("medial_axis_skeleton")
+    found = drawn(bpy.types.VIEW3D_PT_medial_axis_skeleton)
+    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found)
+    skeleton["ma_frame"] = 1  # as one of a sequence
     assert rows(seen())
-    bpy.ops.object.medial_axis_armature()
-    assert bpy.context.object.type == "ARMATURE" and rows(seen())
+    assert press("medial_axis_armature").type == "ARMATURE" and rows(seen())
 
 
 def test_no_two_stored_properties_have_one_name():
@@ -125,8 +125,7 @@ def test_no_two_stored_properties_have_one_name():
 
 
 def test_hollow_without_a_wall_takes_a_share_of_the_diagonal():
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    assert bpy.ops.object.medial_axis_hollow() == {"FINISHED"}
-    assert bpy.data.objects["Cube Hollow"]["ma_hollow_least"] == pytest.approx(
-        0.06 * 3**0.5, rel=0.02
-    )
+    added("cube", size=2)
+    press("medial_axis_hollow")
+    least = bpy.data.objects["Cube Hollow"]["ma_hollow_least"]
+    assert least == pytest.approx(0.06 * 3**0.5, rel=0.02)

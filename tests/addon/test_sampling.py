@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import analyses, attribute, positions, read, reports, result_of, sound, watched
-from scene import added, ring, select, torus
+from scene import added, move_vertices, press, ring, select, torus
 
 
 def click(**settings):
@@ -25,41 +25,27 @@ def click(**settings):
 # --- the shapes people try first: distance into the solid (negative outside), largest radius
 
 
-def in_box(p):
-    return 1.0 - np.abs(p).max(axis=1)
-
-
-def in_ball(p):
-    return 1.0 - np.linalg.norm(p, axis=1)
-
-
-def in_cylinder(p):
-    return np.minimum(1.0 - np.hypot(p[:, 0], p[:, 1]), 1.0 - np.abs(p[:, 2]))
-
-
 def in_cone(p):
     side = (1.0 - p[:, 2] - 2.0 * np.hypot(p[:, 0], p[:, 1])) / math.sqrt(5.0)
     return np.minimum(side, 1.0 + p[:, 2])
 
 
-def in_torus(p):
-    return 0.25 - np.hypot(np.hypot(p[:, 0], p[:, 1]) - 1.0, p[:, 2])
-
-
+in_ball = lambda p: 1.0 - np.linalg.norm(p, axis=1)
+in_cylinder = lambda p: 1.0 - np.maximum(np.hypot(p[:, 0], p[:, 1]), np.abs(p[:, 2]))
 SOLIDS = {  # the last: how much the rounding of few flat faces changes, as a share of the radius
-    "cube": (in_box, 1.0, 0.05),
+    "cube": (lambda p: 1.0 - np.abs(p).max(axis=1), 1.0, 0.05),
     "uv_sphere": (in_ball, 1.0, 0.03),
     "ico_sphere": (in_ball, 1.0, 0.06),
     "cylinder": (in_cylinder, 1.0, 0.05),
     "cone": (in_cone, 2.0 / (1.0 + math.sqrt(5.0)), 0.06),
-    "torus": (in_torus, 0.25, 0.05),
+    "torus": (lambda p: 0.25 - np.hypot(np.hypot(p[:, 0], p[:, 1]) - 1.0, p[:, 2]), 0.25, 0.05),
 }
 
 
 @pytest.mark.parametrize("kind", SOLIDS)
 def test_factory_solids(kind):
     depth, largest, rounding = SOLIDS[kind]
-    getattr(bpy.ops.mesh, f"primitive_{kind}_add")()
+    added(kind)
     result = click()
     sound(result)
     if kind != "uv_sphere":  # whose vertices are dense enough for it
@@ -77,12 +63,12 @@ def test_factory_solids(kind):
 
 
 def test_suzanne_as_she_is():
-    monkey = added("monkey")
+    corners = positions(added("monkey").data)
     result = click()
     sound(result)
     assert result["ma_sampling"] != "VERTICES"
     assert "the surface is open at 42 edges" in result["ma_warnings"]
-    corners, where = positions(monkey.data), positions(result.data)
+    where = positions(result.data)
     low, high = corners.min(axis=0) - 1e-6, corners.max(axis=0) + 1e-6  # sheets end on sharp edges
     assert (where > low).all() and (where < high).all()
     assert 0.4 < attribute(result.data, "ma_radius").max() < 0.8
@@ -103,47 +89,44 @@ def test_text_with_a_depth():
 
 
 def test_curve_with_a_bevel():
-    ring()
+    thing = ring()
     result = click()
     sound(result)
     assert attribute(result.data, "ma_radius").max() == pytest.approx(0.2, rel=0.05)
+    thing.data.bevel_resolution = 8
+    select(thing)
+    result = click(sampling="VERTICES")
+    assert result["ma_sampling"] == "VERTICES" and result["ma_points"] < 3_000
 
 
 def test_nurbs_surface():
-    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    added("surface.nurbs_surface_torus")
     sound(click())
 
 
 def test_metaballs_together():
     ball = added("object.metaball", location=(0, 0, 0))
-    other = ball.data.elements.new()
-    other.co = (1.5, 0, 0)
+    ball.data.elements.new().co = (1.5, 0, 0)
     result = click()
     sound(result)
     where = positions(result.data)
     assert where[:, 0].min() < 0.3 and where[:, 0].max() > 1.2  # from one to the other
     assert attribute(result.data, "ma_radius").max() > 0.8
-    bpy.ops.object.metaball_add(location=(-1.5, 0, 0))
-    part = bpy.context.object  # of the same surface, which belongs to the first
-    assert bpy.ops.object.medial_axis() == {"FINISHED"}
+    # A part of the same surface, which belongs to the first.
+    part = added("object.metaball", location=(-1.5, 0, 0))
+    press("medial_axis")
     assert result_of(part) == result_of(ball)
     assert addon("ui.settings.properties").shown_thing(bpy.context) == result_of(ball)
     assert positions(result_of(ball).data)[:, 0].min() < -1.2
-
-
-def test_vertices_of_a_curve_when_they_are_asked_for():
-    ring().data.bevel_resolution = 8
-    result = click(sampling="VERTICES")
-    assert result["ma_sampling"] == "VERTICES" and result["ma_points"] < 3_000
 
 
 # --- the choices
 
 
 def test_spacing_is_a_share_of_the_diagonal():
-    source = torus()
+    source, share = torus(), {"sampling": "SURFACE", "spacing": 2.0}
     diagonal = np.linalg.norm(np.ptp(positions(source.data), axis=0))
-    result = click(sampling="SURFACE", spacing=2.0)
+    result = click(**share)
     area = sum(polygon.area for polygon in source.data.polygons)
     count = 2 * area / (math.sqrt(3) * (0.02 * diagonal) ** 2)
     assert result["ma_points"] == pytest.approx(count, rel=0.1)
@@ -151,7 +134,7 @@ def test_spacing_is_a_share_of_the_diagonal():
     bpy.context.scene.collection.objects.link(bigger)
     bigger.scale = (7, 7, 7)
     select(bigger)
-    assert click(sampling="SURFACE", spacing=2.0)["ma_points"] == result["ma_points"]
+    assert click(**share)["ma_points"] == result["ma_points"]
 
 
 def thin_and_thick():
@@ -159,21 +142,18 @@ def thin_and_thick():
     source = added("ico_sphere", subdivisions=5)
     points = positions(source.data)
     points[:, 1:] *= 0.15 + 0.85 * np.exp(-((2.2 * points[:, :1]) ** 2))
-    points[:, 0] *= 3.0
-    source.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    source.data.update()
+    move_vertices(source, points * (3.0, 1.0, 1.0))
     return source
 
 
 def test_marked_edges_are_sharp():
-    source = added("uv_sphere")
-    plain = click(sampling="SURFACE", samples=2_000)["ma_density"]
-    assert "with sharp edges" not in plain
+    source, settings = added("uv_sphere"), {"sampling": "SURFACE", "samples": 2_000}
+    assert "with sharp edges" not in click(**settings)["ma_density"]
     heights = positions(source.data)[:, 2]
     for edge in source.data.edges:  # the equator
         edge.use_edge_sharp = bool(np.abs(heights[list(edge.vertices)]).max() < 1e-3)
     select(source)
-    assert "with sharp edges" in click(sampling="SURFACE", samples=2_000)["ma_density"]
+    assert "with sharp edges" in click(**settings)["ma_density"]
 
 
 # --- same answer, memory, sliders, cancel
@@ -192,8 +172,7 @@ def test_a_second_click_and_the_report_analyse_nothing():
 
 
 def test_epsilon_is_only_counted_again():
-    source = torus()
-    settings = {"sampling": "SURFACE", "samples": 1_500}
+    source, settings = torus(), {"sampling": "SURFACE", "samples": 1_500}
     click(**settings)
     count = analyses()
     select(source)
@@ -202,11 +181,11 @@ def test_epsilon_is_only_counted_again():
 
 
 def test_sliders_work_on_samples():
-    bpy.ops.mesh.primitive_cube_add()
-    bpy.context.scene.medial_axis.crisp = False  # with it sheets lead into the edges at any Theta
+    added("cube")
+    panel = bpy.context.scene.medial_axis
+    panel.crisp = False  # with it sheets lead into the edges at any Theta
     result = click(sampling="SURFACE", samples=3_000)
     count, facets = analyses(), len(result.data.polygons)
-    panel = bpy.context.scene.medial_axis
     panel.samples = 5_000  # for the next click
     panel.theta = 1.2
     assert len(result.data.polygons) < facets and analyses() == count and panel.note == ""
@@ -217,16 +196,15 @@ def test_sliders_work_on_samples():
 
 def job_of_a_rod(**settings):
     """A job that takes samples in several passes."""
-    core, shape = addon("core.settings"), read(thin_and_thick())
+    core, jobs, shape = addon("core.settings"), addon("core.machine.job"), read(thin_and_thick())
     wanted = core.Settings(sampling=core.SamplingMode.ADAPTIVE, **settings)
     work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
-    return addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
+    return jobs.Job([jobs.Task("Rod", work)])
 
 
-@pytest.mark.parametrize("delay", [0.1])
-def test_cancel_works_in_every_pass(delay):
+def test_cancel_works_in_every_pass():
     job = job_of_a_rod(samples=200_000, budget=1_000_000, epsilon=0.02)
-    seen, end = [], time.monotonic() + delay
+    seen, end = [], time.monotonic() + 0.1
     while time.monotonic() < end:
         seen.append(job.fraction)
         time.sleep(0.01)

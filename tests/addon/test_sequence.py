@@ -7,21 +7,25 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import contents, positions, reports
-from scene import ellipsoid, link, refuse, select, torus
+from measure import analyses, contents, positions, reports
+from scene import ellipsoid, link, press, refuse, reopened, select, torus
 
 
 @pytest.fixture
 def growing():
     """An ellipsoid that grows from frame 1 to 4, selected."""
-    source = ellipsoid("Body")
+    source, scene = ellipsoid("Body"), bpy.context.scene
     for frame, size in ((1, 1.0), (4, 2.0)):
         source.scale = (size, size, size)
         source.keyframe_insert("scale", frame=frame)
-    scene = bpy.context.scene
     scene.frame_start, scene.frame_end = 1, 4
     scene.frame_set(2)
     return source
+
+
+def compute_sequence(folder, *things, **options):
+    """Write the files of every frame of the selection, and make the objects that play them."""
+    press("medial_axis_sequence", *things, directory=str(folder), **options)
 
 
 def play(name="Body"):
@@ -39,19 +43,21 @@ def shown(name="Body"):
     return found
 
 
+# The objects that are seen from two frames before the first one to four frames after the last one.
+PLAYED = [[f"Body {frame:04d}"] for frame in (1, 1, 1, 2, 3, 4, 4, 4, 4)]
+
+
 def test_files_and_playback(growing, tmp_path):
     before = [thing.name for thing in bpy.data.objects]
-    assert bpy.ops.object.medial_axis_sequence(directory=str(tmp_path)) == {"FINISHED"}
-    assert sorted(path.name for path in tmp_path.glob("*.npz")) == [
-        f"Body_{frame:04d}.npz" for frame in range(1, 5)
-    ]
+    compute_sequence(tmp_path)
+    names = [f"Body_{frame:04d}.npz" for frame in range(1, 5)]
+    assert sorted(path.name for path in tmp_path.glob("*.npz")) == names
     assert bpy.context.scene.frame_current == 2, "the frame is as before"
     things = play().objects
     assert len(things) == 4 == len(bpy.data.objects) - len(before)
     sizes = [np.ptp(positions(thing.data)[:, 0]) for thing in things]
     assert sizes == sorted(sizes) and sizes[3] / sizes[0] == pytest.approx(2.0, rel=1e-3)
-    names = [f"Body {frame:04d}" for frame in (1, 1, 1, 2, 3, 4, 4, 4, 4)]
-    assert list(shown().values()) == [[name] for name in names]
+    assert list(shown().values()) == PLAYED
     ranges = {(thing["ma_radius_min"], thing["ma_radius_max"]) for thing in things}
     assert len(ranges) == 1, "the same colours mean the same radius in all frames"
 
@@ -59,22 +65,21 @@ def test_files_and_playback(growing, tmp_path):
 def test_values_that_were_changed_without_a_key_are_of_no_frame(growing, tmp_path):
     bpy.context.scene.frame_set(1)
     growing.scale = (3.0, 3.0, 3.0)
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1,4")
+    compute_sequence(tmp_path, frames="1,4")
     first, last = (np.ptp(positions(thing.data)[:, 0]) for thing in play().objects)
     assert last / first == pytest.approx(2.0, rel=1e-3)
 
 
 def test_fast_leaves_out_exact_places(growing, tmp_path):
     for fast in (False, True):
-        select(growing)
         folder = tmp_path / str(fast)
-        bpy.ops.object.medial_axis_sequence(directory=str(folder), frames="1", fast=fast)
+        compute_sequence(folder, growing, frames="1", fast=fast)
         axis = addon("core.files.load_axis").load_axis(folder / "Body_0001.npz")
         assert axis.level.is_crisp.any() != fast
 
 
 def test_attributes_come_from_the_file(growing, tmp_path):
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="3")
+    compute_sequence(tmp_path, frames="3")
     axis = addon("core.files.load_axis").load_axis(tmp_path / "Body_0003.npz")
     back = addon("bridge.axis.read_axis").read_axis(play().objects[0])
     for name in ("radius", "theta", "rho"):
@@ -84,20 +89,18 @@ def test_attributes_come_from_the_file(growing, tmp_path):
 
 
 def test_again_keeps_files_and_replaces_objects(growing, tmp_path, capfd):
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    compute_sequence(tmp_path)
     reports(capfd)
-    before = [*map(len, contents())]
-    analyses = addon("core.machine.cache").CACHE.analyses
-    select(growing)
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    before, count = [*map(len, contents())], analyses()
+    compute_sequence(tmp_path, growing)
     assert ("Info", "4 of 4 frames are there, 4 were before") in reports(capfd)
-    assert addon("core.machine.cache").CACHE.analyses == analyses
-    assert [*map(len, contents())] == before and len(bpy.data.collections) == 1
+    assert [*map(len, contents())] == before and analyses() == count
+    assert len(bpy.data.collections) == 1
 
 
 def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, capfd):
     bpy.context.scene.medial_axis.rho = 6.0
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="2-3", playback=False)
+    compute_sequence(tmp_path, frames="2-3", playback=False)
     assert len(bpy.data.collections) == 0
     reports(capfd)
     words = [f"{tmp_path}/", "--frames", "2-3", "--format", "npz", "--rho", "6"]
@@ -112,8 +115,7 @@ def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):
     other.keyframe_insert("scale", frame=1)
     other.scale = (1, 1, 1)
     other.keyframe_insert("scale", frame=2)
-    select(growing, other)
-    assert bpy.ops.object.medial_axis_sequence(directory=str(tmp_path)) == {"FINISHED"}
+    compute_sequence(tmp_path, growing, other)
     said = reports(capfd)
     assert ("Warning", "7 of 8 frames are there, 0 were before") in said
     assert any(text.startswith("'Ring, frame 1': Expected") for _, text in said)
@@ -124,8 +126,7 @@ def test_refused(growing, tmp_path):
     refuse("Expected a saved file", "medial_axis_sequence", directory="//axes")
     chosen = {"operator": "medial_axis_sequence", "directory": str(tmp_path)}
     refuse("Expected frames such as", **chosen, frames="x")
-    flat = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 3, 2)])
-    select(flat)
+    link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 3, 2)])
     refuse("Expected results of 4 frames, found none", **chosen)
     assert list(tmp_path.iterdir()) == [] and len(bpy.data.collections) == 0
     select()
@@ -134,8 +135,7 @@ def test_refused(growing, tmp_path):
 
 def test_folder_beside_the_file(growing, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
-    select(bpy.data.objects["Body"])
-    bpy.ops.object.medial_axis_sequence(frames="1")
+    press("medial_axis_sequence", growing, frames="1")
     assert (tmp_path / "medial_axis" / "Body_0001.npz").is_file()
 
 
@@ -143,13 +143,11 @@ def test_saved_file_plays_without_the_addon(growing, tmp_path):
     """Keys, not handlers: the file plays where the add-on is disabled, and it leaves no handler of its own."""
     handlers = bpy.app.handlers.frame_change_pre, bpy.app.handlers.frame_change_post
     before = [list(each) for each in handlers]
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path / "axes"))
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    compute_sequence(tmp_path / "axes")
     for path in (tmp_path / "axes").iterdir():
         path.unlink()
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
-    names = [f"Body {frame:04d}" for frame in (1, 1, 1, 2, 3, 4, 4, 4, 4)]
-    assert list(shown().values()) == [[name] for name in names]
+    reopened(tmp_path / "a.blend")
+    assert list(shown().values()) == PLAYED
     assert [list(each) for each in handlers] == before
 
 
@@ -165,20 +163,19 @@ def test_files_of_a_farm_are_imported(growing, tmp_path, capfd):
 
 @pytest.mark.parametrize("broken", ["text", "other arrays", "wrong lengths", "wrong corners"])
 def test_nothing_is_left_of_files_that_are_broken(growing, tmp_path, broken):
-    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), playback=False, frames="1-2")
+    compute_sequence(tmp_path, playback=False, frames="1-2")
     path = tmp_path / "Body_0002.npz"
     with np.load(path) as archive:
         arrays = dict(archive)
+    if broken == "other arrays":
+        del arrays["theta"]
+    elif broken == "wrong lengths":
+        arrays["radius"] = arrays["radius"][1:]
+    elif broken == "wrong corners":
+        arrays["face_vertices"] = arrays["face_vertices"] + 10**6
+    np.savez(path, **arrays)
     if broken == "text":
         path.write_text("no archive")
-    else:
-        if broken == "other arrays":
-            del arrays["theta"]
-        elif broken == "wrong lengths":
-            arrays["radius"] = arrays["radius"][1:]
-        else:
-            arrays["face_vertices"] = arrays["face_vertices"] + 10**6
-        np.savez(path, **arrays)
     files = [{"name": f"Body_{frame:04d}.npz"} for frame in (1, 2)]
     chosen = {"operator": "import_scene.medial_axis_sequence", "directory": str(tmp_path)}
     refuse("Expected", **chosen, files=files)
@@ -207,17 +204,14 @@ def rod(name, around=16, along=41):
     places = np.linspace(-2.0, 2.0, along)
     vertices = [(x, 0.3 * np.cos(t), 0.3 * np.sin(t)) for x in places for t in turn]
     ends = [list(range(around))[::-1], list(range(around * (along - 1), around * along))]
-    faces = [
-        (row * around + k, row * around + (k + 1) % around)
-        for row in range(along - 1)
-        for k in range(around)
-    ]
-    return link(name, vertices, [*ends, *((a, b, b + around, a + around) for a, b in faces)])
+    steps = [(k, (k + 1) % around) for k in range(around)]
+    starts = range(0, around * (along - 1), around)
+    faces = [(i + a, i + b, i + b + around, i + a + around) for i in starts for a, b in steps]
+    return link(name, vertices, [*ends, *faces])
 
 
 def test_skeletons_of_every_frame(bending, tmp_path):
-    done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), of="SKELETONS")
-    assert done == {"FINISHED"}
+    compute_sequence(tmp_path, of="SKELETONS")
     names = [f"Arm_{frame:04d}.json" for frame in (1, 2, 3)]
     assert sorted(p.name for p in tmp_path.glob("Arm_????.json")) == names
     assert play("Arm").name == "Arm Skeleton Sequence"
@@ -237,16 +231,13 @@ def test_skeletons_of_every_frame(bending, tmp_path):
 
 
 def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_path):
-    bpy.ops.object.medial_axis_sequence(
-        directory=str(tmp_path), of="SKELETONS", frames="1-2", playback=False
-    )
+    compute_sequence(tmp_path, of="SKELETONS", frames="1-2", playback=False)
     files = [{"name": path.name} for path in tmp_path.iterdir()]
     assert len(files) == 4
     bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
     assert [thing.name for thing in play("Arm").objects] == ["Arm 0001", "Arm 0002"]
-    (tmp_path / "Arm_0002.json").write_text(
-        '{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}'
-    )
+    wrong = '{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}'
+    (tmp_path / "Arm_0002.json").write_text(wrong)
     chosen = {"operator": "import_scene.medial_axis_sequence", "directory": str(tmp_path)}
     refuse("Expected nodes and parts of a skeleton", **chosen, files=files)
 

@@ -4,7 +4,8 @@
 import bmesh
 import bpy
 import pytest
-from scene import added, refuse, select
+from measure import open_edges, volume
+from scene import added, press, refuse, select
 
 WALL = 0.2
 
@@ -14,25 +15,17 @@ def grid():
 
 
 def solid(source, **options):
-    select(source)
-    assert bpy.ops.object.medial_axis_solidify(thickness=WALL, **options) == {"FINISHED"}
-    return bpy.data.objects[f"{source.name} Solid"]
-
-
-def volume(thing):
-    mesh = bmesh.new()
-    mesh.from_mesh(thing.data)
-    assert all(edge.is_manifold for edge in mesh.edges)
-    found = mesh.calc_volume()
-    mesh.free()
-    return found
+    press("medial_axis_solidify", source, thickness=WALL, **options)
+    made = bpy.data.objects[f"{source.name} Solid"]
+    assert open_edges(made.data) == 0
+    return made
 
 
 def test_a_grid_becomes_a_plate_in_the_worlds_unit():
     source = grid()
     source.scale = (1.0, 2.0, 1.0)
     made = solid(source, offset=1.0)
-    assert volume(made) == pytest.approx(2 * 4 * WALL, rel=1e-5)
+    assert volume(made.data) == pytest.approx(2 * 4 * WALL, rel=1e-5)
     walls = [item.value for item in made.data.attributes["ma_wall"].data]
     assert walls == pytest.approx([WALL] * len(made.data.vertices))
     assert min(vertex.co.z for vertex in made.data.vertices) == pytest.approx(0.0, abs=1e-6)
@@ -45,7 +38,8 @@ def test_selected_faces_alone_become_a_solid():
     bpy.ops.mesh.select_all(action="DESELECT")
     for face in bmesh.from_edit_mesh(source.data).faces:
         face.select_set(face.calc_center_median().x > 0)
-    assert volume(solid(source, only_selected=True)) == pytest.approx(2 * WALL, rel=1e-5)
+    made = solid(source, only_selected=True)
+    assert volume(made.data) == pytest.approx(2 * WALL, rel=1e-5)
     bpy.ops.object.mode_set(mode="OBJECT")
     source.modifiers.new("Subdivision", "SUBSURF")
     select(source)

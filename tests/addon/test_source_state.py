@@ -5,15 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from installed import addon
-from measure import result_of
-from scene import added, compute, ellipsoid, select, torus
-
-KINDS = {
-    "curve": "curve.bezier_circle",
-    "surface": "surface.nurbs_surface_torus",
-    "text": "object.text",
-    "metaball": "object.metaball",
-}
+from scene import added, compute, ellipsoid, press, select, torus
 
 
 def has_changed(output):
@@ -25,8 +17,7 @@ def has_changed(output):
 
 def computed(**settings):
     source = ellipsoid(segments=4)
-    compute(**settings)
-    return source, result_of(source)
+    return source, compute(**settings)
 
 
 def test_a_source_that_is_as_it_was():
@@ -43,14 +34,10 @@ def move_a_vertex(source):
     source.data.update()
 
 
-def add_modifier(source):
-    source.modifiers.new("Wave", "DISPLACE").strength = 0.01
-
-
 CHANGES = {
     "moved vertex": move_a_vertex,
     "flipped": lambda source: source.data.flip_normals(),
-    "modifier": add_modifier,
+    "modifier": lambda source: setattr(source.modifiers.new("Wave", "DISPLACE"), "strength", 0.01),
     "scale": lambda source: setattr(source, "scale", (2, 1, 1)),
     "even scale": lambda source: setattr(source, "scale", (1.01, 1.01, 1.01)),
 }
@@ -62,8 +49,7 @@ def test_a_changed_source(change):
     CHANGES[change](source)
     assert has_changed(result)
     if change != "flipped":  # an axis of the inside needs faces that look outward
-        compute(source)
-        assert result_of(source) == result and not has_changed(result)
+        assert compute(source) == result and not has_changed(result)
 
 
 def test_a_change_that_is_taken_back():
@@ -89,31 +75,40 @@ def test_edit_mode_and_a_hidden_source_tell_nothing():
     assert has_changed(result)
 
 
+def change_curve(data):
+    data.splines[0].bezier_points[0].radius = 0.7
+
+
+def change_surface(data):
+    data.splines[0].points[0].co.z += 0.2
+
+
+KINDS = {
+    "curve.bezier_circle": change_curve,
+    "surface.nurbs_surface_torus": change_surface,
+    "object.text": lambda data: setattr(data, "body", "Other"),
+    "object.metaball": lambda data: setattr(data.elements[0], "radius", 1.7),
+}
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_sources_of_other_types(kind):
-    source = added(KINDS[kind])
-    if kind == "metaball":
-        source.data.elements.new().co.x = 1.5
-    if kind in ("curve", "text"):
-        source.data.bevel_depth = 0.1
-        source.data.extrude = 0.1
+    source = added(kind)
+    data = source.data
+    if kind == "object.metaball":
+        data.elements.new().co.x = 1.5
+    elif "surface" not in kind:
+        data.bevel_depth = data.extrude = 0.1
     result = compute(form="CLEAN", sampling="SURFACE")
     assert not has_changed(result)
     source.location.x += 1
     assert not has_changed(result)
-    if kind != "metaball":
-        depth, source.data.extrude = source.data.extrude, 0.3
+    if kind != "object.metaball":
+        depth, data.extrude = data.extrude, 0.3
         assert has_changed(result)
-        source.data.extrude = depth
+        data.extrude = depth
         assert not has_changed(result)
-    if kind == "text":
-        source.data.body = "Other"
-    elif kind == "metaball":
-        source.data.elements[0].radius = 1.7
-    elif kind == "curve":
-        source.data.splines[0].bezier_points[0].radius = 0.7
-    else:
-        source.data.splines[0].points[0].co.z += 0.2
+    KINDS[kind](data)
     assert has_changed(result)
 
 
@@ -154,10 +149,8 @@ def test_a_scaled_source_does_not_stretch_its_axis():
 
 def test_what_was_rebuilt_or_reduced_follows_as_the_axis_does():
     source, result = computed(form="CLEAN", side="INNER")
-    select(result)
-    bpy.ops.object.medial_axis_rebuild()
-    select(result)
-    bpy.ops.object.medial_axis_reduce(vertices=10)
+    press("medial_axis_rebuild", result)
+    press("medial_axis_reduce", result, vertices=10)
     rebuilt = addon("bridge.rebuilt_object").rebuilt_of(result)
     reduced = addon("bridge.axis.reduced_object").reduced_of(source)
     source.location, source.rotation_euler = (1.5, -2, 0.5), (0.3, 0.2, 0.1)
@@ -183,10 +176,8 @@ def test_settings_that_need_another_analysis_are_those_that_were_not_asked_for()
     source = torus()
 
     def answer():
-        select(source)
         button = {name: getattr(panel, name) for name in settings.OPTIONS}
-        assert bpy.ops.object.medial_axis(**button) == {"FINISHED"}
-        return result_of(source)
+        return press("medial_axis", source, **button)
 
     panel.samples, panel.form, panel.crisp = 600, "PUBLISHED", False
     result = answer()
@@ -215,7 +206,6 @@ def test_what_automatic_turns_on_by_itself_is_no_change_of_settings():
     properties, panel = addon("ui.settings.properties"), bpy.context.scene.medial_axis
     source = added("cylinder", vertices=64, radius=1.0, depth=0.01)
     source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))
-    assert bpy.ops.object.medial_axis() == {"FINISHED"}
-    result = result_of(source)
+    result = press("medial_axis")
     assert result["ma_pairs"] and not panel.pairs
     assert not properties.needs_analysis(result, panel)

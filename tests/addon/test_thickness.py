@@ -9,20 +9,8 @@ import numpy as np
 import pytest
 from installed import addon
 from mathutils import Vector
-from measure import attribute, evaluated, positions
-from scene import (
-    added,
-    box,
-    ellipsoid,
-    in_edit_mode,
-    link,
-    refuse,
-    ring,
-    scan,
-    select,
-    suzanne,
-    tube_ring,
-)
+from measure import attribute, evaluated, medial_objects, positions
+from scene import added, box, ellipsoid, link, press, refuse, ring, scan, select, suzanne, tube_ring
 from test_rows import Layout
 
 MEASURE = "medial_axis_thickness"
@@ -31,9 +19,13 @@ SIZE = (1.0, 0.7, 0.4)  # of a box
 
 def measure(source, **wanted):
     """Run the operator on a source; what carries the thickness."""
-    select(source)
-    assert bpy.ops.object.medial_axis_thickness(**wanted) == {"FINISHED"}
+    press(MEASURE, source, **wanted)
     return addon("bridge.thickness.thickness_object").carrier_of(source)
+
+
+def thin_place(which):
+    """Select places that are too thin, or say that there is none."""
+    return bpy.ops.object.medial_axis_thin_place(which=which)
 
 
 def torus(name="Torus"):
@@ -66,8 +58,7 @@ def thin_faces(thing):
 
 def test_dense_source_carries_its_thickness_itself():
     source = torus()
-    carrier = measure(source, limit=0.6)
-    assert carrier == source
+    assert measure(source, limit=0.6) == source
     mesh = source.data
     values = attribute(mesh, "ma_thickness")
     assert len(values) == len(mesh.vertices) and 0.4 < np.median(values) < 0.82
@@ -103,30 +94,19 @@ def test_coarse_source_has_a_copy_and_its_own_attributes():
     assert not thin_faces(source).any() and not thin_faces(carrier).any()
 
 
-def test_modifiers_that_change_vertices_leave_the_source_alone():
-    source = suzanne(2)
-    carrier = measure(source, limit=0.2)
-    assert carrier != source and "ma_thickness" not in source.data.attributes
-
-
 def test_lengths_are_those_of_the_world():
     source = box(*SIZE)
-    source.scale = (2.0, 2.0, -2.0)
-    source.rotation_euler = (0.3, 0.2, 0.1)
+    source.scale, source.rotation_euler = (2.0, 2.0, -2.0), (0.3, 0.2, 0.1)
     carrier = measure(source)
     assert carrier["ma_thickness_minimum"] == pytest.approx(0.8, rel=0.01)
     place = carrier.matrix_world @ Vector(carrier["ma_thickness_place"])
-    local = source.matrix_world.inverted() @ place
-    assert max(abs(local.x) / 0.5, abs(local.y) / 0.35, abs(local.z) / 0.2) == pytest.approx(
-        1, rel=0.01
-    )
+    local = np.abs(source.matrix_world.inverted() @ place)
+    assert (local / (0.5, 0.35, 0.2)).max() == pytest.approx(1, rel=0.01)
 
 
 def test_limit_acts_at_once():
-    source = grid_box()
-    carrier = measure(source, limit=0.1)
-    panel = bpy.context.scene.medial_axis_thickness
-    assert carrier == source and not thin_faces(source).any()
+    source, panel = grid_box(), bpy.context.scene.medial_axis_thickness
+    assert measure(source, limit=0.1) == source and not thin_faces(source).any()
     panel.limit = 0.41
     assert panel.note == "" and thin_faces(source).all()
     assert source["ma_thickness_share"] == pytest.approx(1.0, abs=1e-3)
@@ -135,10 +115,9 @@ def test_limit_acts_at_once():
 
 
 def test_limit_without_a_measurement_says_what_to_do():
-    source = torus()
+    source, panel = torus(), bpy.context.scene.medial_axis_thickness
     measure(source, limit=0.1)
     addon("core.machine.cache").CACHE.clear()
-    panel = bpy.context.scene.medial_axis_thickness
     panel.limit = 0.7
     assert "no longer in memory" in panel.note
     assert source["ma_thickness_limit"] == pytest.approx(0.1)
@@ -147,24 +126,21 @@ def test_limit_without_a_measurement_says_what_to_do():
 def test_places_are_selected_where_one_sees_it():
     source = grid_box()
     measure(source, limit=0.41)
-    assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
-    assert source.mode == "EDIT" and bpy.context.tool_settings.mesh_select_mode[2]
-    assert source.data.total_face_sel == len(source.data.polygons)
-    assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"FINISHED"}
+    for mode in ("OBJECT", "EDIT"):
+        source.data.polygons.foreach_set("select", [False] * len(source.data.polygons))
+        bpy.ops.object.mode_set(mode=mode)
+        assert thin_place("ALL") == {"FINISHED"}
+        assert source.mode == "EDIT" and bpy.context.tool_settings.mesh_select_mode[2]
+        assert source.data.total_face_sel == len(source.data.polygons)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert thin_place("NEXT") == {"FINISHED"}
     assert source["ma_thickness_current"] == 0 and source.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.medial_axis_thickness.limit = 0.39
-    assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"CANCELLED"}
-    assert bpy.ops.object.medial_axis_thin_place(which="MINIMUM") == {"FINISHED"}
+    assert thin_place("NEXT") == {"CANCELLED"}
+    assert thin_place("MINIMUM") == {"FINISHED"}
     assert sum(polygon.select for polygon in source.data.polygons) == 1
-
-
-def test_thin_faces_are_selected_in_edit_mode():
-    source = grid_box()
-    measure(source, limit=0.41)
-    with in_edit_mode():
-        assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
-        assert source.mode == "EDIT" and source.data.total_face_sel == len(source.data.polygons)
 
 
 def fin():
@@ -181,8 +157,7 @@ def fin():
 
 def test_thin_parts_that_only_rays_find_are_seen():
     source = fin()
-    carrier = measure(source, limit=0.001)
-    panel = bpy.context.scene.medial_axis_thickness
+    carrier, panel = measure(source, limit=0.001), bpy.context.scene.medial_axis_thickness
     assert carrier != source and not thin_faces(carrier).any()
     panel.limit = 0.02
     assert panel.note == ""
@@ -199,8 +174,7 @@ def test_thin_parts_that_only_rays_find_are_seen():
     assert len(sides) == 2 and thin_faces(source)[sides].all()
     for thing in (source, carrier):
         for which in ("MINIMUM", "NEXT", "ALL"):
-            select(thing)
-            assert bpy.ops.object.medial_axis_thin_place(which=which) == {"FINISHED"}
+            press("medial_axis_thin_place", thing, which=which)
             bpy.ops.object.mode_set(mode="OBJECT")
             selected = np.array([p.select for p in thing.data.polygons])
             assert selected.any() and thin_faces(thing)[selected].all(), which
@@ -209,7 +183,6 @@ def test_thin_parts_that_only_rays_find_are_seen():
 
 def test_usual_limits_follow_the_unit_of_the_scene():
     source, units = box(*SIZE), bpy.context.scene.unit_settings
-    select(source)
     settings = bpy.context.scene.medial_axis_thickness
     for scale, limit in ((1.0, 0.0012), (0.001, 1.2)):
         units.scale_length = scale
@@ -231,7 +204,6 @@ def test_the_legend_has_bars():
 def test_what_was_measured_is_exported(tmp_path):
     source = torus()
     export = bpy.ops.export_scene.medial_axis_thickness
-    select(source)
     assert not export.poll()
     measure(source, limit=0.6)
     for suffix in ("html", "csv", "json", "ply"):
@@ -266,40 +238,38 @@ def test_a_selection_is_exported_as_one_page(tmp_path):
 
 
 def test_edit_mode_and_places_without_a_measurement_are_refused():
-    source = torus()
-    select(source)
+    select(torus())
     assert not bpy.ops.object.medial_axis_thin_place.poll()
-    with in_edit_mode():
-        refuse("in object mode", operator=MEASURE)
+    bpy.ops.object.mode_set(mode="EDIT")
+    refuse("in object mode", operator=MEASURE)
+    bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_points_without_faces_get_a_copy():
-    source = scan()
-    carrier = measure(source, limit=0.1)
+@pytest.mark.parametrize("make", [scan, lambda: suzanne(2)], ids=["points", "modifiers"])
+def test_what_cannot_carry_its_thickness_gets_a_copy(make):
+    source = make()
+    carrier = measure(source, limit=0.1 if make is scan else 0.2)
     assert carrier != source and len(carrier.data.polygons) > 1000
-    assert "reconstructed surface" in carrier["ma_thickness_normals"]
+    assert ("ma_thickness" in source.data.attributes) == (make is scan)
+    assert ("reconstructed surface" in carrier["ma_thickness_normals"]) == (make is scan)
 
 
 def test_several_objects_each_have_their_own():
     first, second = torus("First"), box(*SIZE)
-    select(first, second)
-    assert bpy.ops.object.medial_axis_thickness(limit=0.5) == {"FINISHED"}
+    press(MEASURE, first, second, limit=0.5)
     carrier_of = addon("bridge.thickness.thickness_object").carrier_of
     assert carrier_of(first) == first and carrier_of(second)["ma_source"] == second
 
 
 def test_copy_stands_for_its_source():
-    source = box(*SIZE)
-    carrier = measure(source, limit=0.41)
-    select(carrier)
-    assert bpy.ops.object.medial_axis_thickness(limit=0.3) == {"FINISHED"}
+    carrier = measure(box(*SIZE), limit=0.41)
+    press(MEASURE, carrier, limit=0.3)
     assert carrier["ma_thickness_limit"] == pytest.approx(0.3)
 
 
 def test_feature_size_on_the_source():
     source = torus()
-    select(source)
-    assert bpy.ops.object.medial_axis_sampling_report(target="SOURCE") == {"FINISHED"}
+    press("medial_axis_sampling_report", source, target="SOURCE")
     sizes = attribute(source.data, "ma_feature_size")
     group = source.vertex_groups["ma_feature_size"]
     weights = np.array([group.weight(i) for i in range(len(sizes))])
@@ -328,19 +298,13 @@ def reordered(kind):
 def test_thickness_is_of_the_vertex_that_has_it(kind):
     """Looked up by place: the value of each vertex is that of the measured place where it lies."""
     source = reordered(kind)
-    assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
-    carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
-    values = attribute(carrier.data, "ma_thickness")
-    places = positions(carrier.data)
-    height = 2 * 0.2 * np.sqrt(np.maximum(0, 1 - (places[:, 0]) ** 2 - (places[:, 1] / 0.7) ** 2))
-    middle = height > 0.25
-    assert np.corrcoef(values[middle], height[middle])[0, 1] > 0.9
-    own = kind in ("DEFORM", "NONE")
+    carrier, own = measure(source), kind in ("DEFORM", "NONE")
     assert ("ma_thickness" in source.data.attributes) == own
-    if own:
-        values, x, y = attribute(source.data, "ma_thickness"), *positions(source.data).T[:2]
+    for mesh in [carrier.data, source.data][: 1 + own]:
+        x, y = positions(mesh).T[:2]
         height = 0.4 * np.sqrt(np.maximum(0, 1 - x**2 - (y / 0.7) ** 2))
-        assert np.corrcoef(values[height > 0.25], height[height > 0.25])[0, 1] > 0.9
+        values, middle = attribute(mesh, "ma_thickness"), height > 0.25
+        assert np.corrcoef(values[middle], height[middle])[0, 1] > 0.9
     assert not [a.name for a in source.data.attributes if "index" in a.name]
 
 
@@ -367,8 +331,7 @@ def test_a_report_is_not_written_on_a_source_in_another_order():
 def test_thickness_of_what_is_no_mesh_is_on_a_copy(kind):
     """It once ended in a traceback after the whole computation."""
     source = ring() if kind == "curve" else added(kind)
-    assert bpy.ops.object.medial_axis_thickness(samples=2000) == {"FINISHED"}
-    carrier = addon("bridge.thickness.thickness_object").carrier_of(source)
+    carrier = measure(source, samples=2000)
     assert carrier != source and carrier["ma_thickness_minimum"] > 0
 
 
@@ -381,17 +344,12 @@ def test_minimum_is_seen_from_near_also_where_much_is_thin():
     assert 4 * least <= size <= 10 * least < 1.4
 
 
-def test_shares_are_written_out():
-    share_text = addon("core.samples.density").share_text
-    shown = {
-        0.0: "0 %",
-        0.00004: "0.004 %",
-        0.071: "7.1 %",
-        0.42: "42 %",
-        0.996: "100 %",
-        1.0: "100 %",
-    }
-    assert {share: share_text(share) for share in shown} == shown
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.0, "0 %"), (4e-5, "0.004 %"), (0.071, "7.1 %"), (0.42, "42 %"), (0.996, "100 %"), (1.0, "100 %")],
+)  # fmt: skip
+def test_shares_are_written_out(share, text):
+    assert addon("core.samples.density").share_text(share) == text
 
 
 def test_one_menu_has_what_f3_looks_for():
@@ -404,10 +362,8 @@ def test_one_menu_has_what_f3_looks_for():
         if name.startswith(("medial_axis", "tight_cocone"))
         and "INTERNAL" not in getattr(bpy.types, f"OBJECT_OT_{name}").bl_options
     }
-    at_places = {
-        "object.medial_axis_thin_place",
-        "object.medial_axis_nodes",
-    }  # rows of panels, another menu
+    # These two are rows of panels, and in another menu.
+    at_places = {"object.medial_axis_thin_place", "object.medial_axis_nodes"}
     assert verbs - at_places == {row[0] for row in found.rows if row[0].startswith("object.")}
     for owner in (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu):
         entries = owner._dyn_ui_initialize()
@@ -416,9 +372,6 @@ def test_one_menu_has_what_f3_looks_for():
 
 def test_metaballs_of_one_family_are_one_source(capfd):
     first = added("object.metaball")
-    bpy.ops.object.metaball_add(location=(1.5, 0, 0))
-    select(bpy.context.object, first)
-    assert bpy.ops.object.medial_axis(form="CLEAN") == {"FINISHED"}
+    press("medial_axis", added("object.metaball", location=(1.5, 0, 0)), first, form="CLEAN")
     assert "Expected points" not in capfd.readouterr().out
-    is_result = addon("bridge.axis.axis_object").is_result
-    assert [o["ma_source"] for o in bpy.data.objects if is_result(o)] == [first]
+    assert [thing["ma_source"] for thing in medial_objects()] == [first]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from installed import addon
 from mathutils import Euler, Matrix
-from measure import attribute, generators, result_of, world_positions
-from scene import compute, ellipsoid
+from measure import attribute, generators, world_positions
+from scene import compute, ellipsoid, new_object
 
 ROTATION = Euler((0.4, -0.8, 1.3)).to_matrix().to_4x4()
 SHEAR = Matrix(((1, 0.7, 0, 0), (0, 1, 0.2, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
@@ -37,16 +37,11 @@ PLACES = {
 
 
 def place(source, world, parents):
-    """Put an object there by itself, or through a chain of parents that leaves only a turn to the
-    object.
-    """
+    """Put an object there by itself, or through a chain of parents that leaves only a turn to the object."""
     if not parents:
         source.matrix_world = world  # shear cannot be an object's own
         return
-    outer = bpy.data.objects.new("Outer", None)
-    inner = bpy.data.objects.new("Inner", None)
-    for empty in (outer, inner):
-        bpy.context.scene.collection.objects.link(empty)
+    outer, inner = new_object("Outer"), new_object("Inner")
     outer.matrix_world = Matrix.Translation((0, 0, 5)) @ scale(1, 3, 0.5)
     inner.parent, source.parent = outer, inner
     inner.matrix_local = ROTATION
@@ -63,9 +58,7 @@ def applied_copy(source):
     mesh.transform(source.matrix_world)
     if source.matrix_world.determinant() < 0:
         mesh.flip_normals()
-    copy = bpy.data.objects.new("Applied", mesh)
-    bpy.context.scene.collection.objects.link(copy)
-    return copy
+    return new_object("Applied", mesh)
 
 
 def facets(result):
@@ -81,37 +74,27 @@ def facets(result):
 def test_result_equals_that_of_a_copy_with_applied_transform(name):
     source = ellipsoid(segments=3)
     place(source, PLACES[name], parents=list(PLACES).index(name) % 2 == 0)
-    copy = applied_copy(source)
-    compute(source)
-    compute(copy)
-    result, expected = result_of(source), result_of(copy)
+    result, expected = compute(source), compute(applied_copy(source))
     assert result["ma_side"] == expected["ma_side"] == "INNER"
     bpy.context.view_layer.update()
     assert result.matrix_world.to_scale()[:] == pytest.approx((1, 1, 1), abs=1e-6)
     assert result.matrix_world.determinant() > 0
     mine, theirs = facets(result), facets(expected)
     common = mine.keys() & theirs.keys()
-    assert (
-        len(common) > 0.98 * max(len(mine), len(theirs)) > 100
-    )  # float32 vertices decide a few edges
-    size = max(source.dimensions)
+    # Vertices of float32 decide a few edges.
+    assert len(common) > 0.98 * max(len(mine), len(theirs)) > 100
     away = np.array([np.linalg.norm(mine[key] - theirs[key]) for key in common])
-    assert np.quantile(away, 0.99) < 1e-4 * size
+    assert np.quantile(away, 0.99) < 1e-4 * max(source.dimensions)
     low, high = (np.sort(attribute(thing.data, "ma_radius")) for thing in (result, expected))
     assert np.median(low) == pytest.approx(np.median(high), rel=1e-3)
     assert low[-1] == pytest.approx(high[-1], rel=1e-3)
 
 
 def test_animated_constraint_is_seen():
-    source = ellipsoid()
-    target = bpy.data.objects.new("Target", None)
+    source, target = ellipsoid(), new_object("Target")
     target.location = (4, 5, 6)
-    bpy.context.scene.collection.objects.link(target)
     source.constraints.new("COPY_LOCATION").target = target
-    compute()
-    np.testing.assert_allclose(
-        world_positions(result_of(source)).mean(axis=0), (4, 5, 6), atol=0.05
-    )
+    np.testing.assert_allclose(world_positions(compute()).mean(axis=0), (4, 5, 6), atol=0.05)
 
 
 @pytest.mark.parametrize("name", PLACES)

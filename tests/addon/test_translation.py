@@ -4,7 +4,7 @@
 import bpy
 import pytest
 from installed import MODULE, addon
-from scene import ellipsoid, link, select
+from scene import ellipsoid, link, press
 from test_rows import Layout, seen
 
 
@@ -14,6 +14,10 @@ def entries():
 
 def say(text):
     return addon("ui.base.translation").say(text)
+
+
+def filled(text):
+    return text.format(*"12345678")
 
 
 @pytest.fixture
@@ -38,9 +42,8 @@ def test_translations_have_as_many_places_as_texts():
 
 
 def test_english_is_left_as_it_is():
-    for text in entries():
-        filled = text.format(*"12345678")
-        assert say(filled) == filled
+    for text in map(filled, entries()):
+        assert say(text) == text
 
 
 def test_english_sentences_are_not_looked_up(monkeypatch):
@@ -78,8 +81,7 @@ def test_operators_are_translated_in_their_own_context(german):
 
 def test_every_sentence_is_translated(german):
     for text, other in entries().items():
-        filled = text.format(*"12345678")
-        assert text == "'{}': {}" or say(filled) == other.format(*"12345678")
+        assert text == "'{}': {}" or say(filled(text)) == filled(other)
 
 
 @pytest.mark.parametrize(
@@ -140,13 +142,11 @@ def test_names_are_not_translated(german):
 
 
 def test_panels_keep_english_and_show_german(german):
-    select(ellipsoid())
-    bpy.ops.object.medial_axis(sampling="VERTICES")
-    result = bpy.context.object
+    ellipsoid()
+    result = press("medial_axis", sampling="VERTICES")
     assert result["ma_inside"] == "Inside from Surface: the faces are closed"
-    layout = Layout()
-    context = seen(width=2000)
-    addon("ui.base.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
+    layout, words = Layout(), result["ma_inside"]
+    addon("ui.base.wrapped_text").draw_wrapped(seen(width=2000), layout, words, "INFO")
     assert layout.rows == [["Innen nach Oberfläche: die Flächen sind geschlossen"]]
 
 

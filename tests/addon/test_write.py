@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import attribute, positions
-from scene import compute, ellipsoid
+from scene import added, compute, ellipsoid, press
 
 
 def honeycomb(rows, columns):
@@ -33,25 +33,21 @@ def honeycomb(rows, columns):
 
 
 def changed(axis, **fields):
-    return type(axis)(
-        **{**{name: getattr(axis, name) for name in axis.__dataclass_fields__}, **fields}
-    )
+    known = {name: getattr(axis, name) for name in axis.__dataclass_fields__}
+    return type(axis)(**known | fields)
 
 
 def written(axis, name):
-    return addon("bridge.mesh.write_mesh").new_mesh(
-        axis, name, addon("bridge.mesh.attributes").attributes()
-    )
+    attributes = addon("bridge.mesh.attributes").attributes()
+    return addon("bridge.mesh.write_mesh").new_mesh(axis, name, attributes)
 
 
 def test_arrays_arrive():
     axis = honeycomb(4, 5)
     mesh = written(axis, "Honeycomb")
     np.testing.assert_array_equal(positions(mesh), axis.vertices.astype(np.float32))
-    assert [len(p.vertices) for p in mesh.polygons] == [6] * 20
-    np.testing.assert_array_equal(
-        [list(p.vertices) for p in mesh.polygons], axis.face_vertices.reshape(-1, 6)
-    )
+    corners = [list(p.vertices) for p in mesh.polygons]
+    np.testing.assert_array_equal(corners, axis.face_vertices.reshape(20, 6))
     for entry in addon("bridge.mesh.attributes").attributes():
         found = mesh.attributes[entry.name]
         assert (found.domain, found.data_type) == (entry.domain, entry.type)
@@ -71,32 +67,22 @@ def test_numbers_beyond_float32_become_its_largest():
 
 
 def test_polygons_of_different_sizes():
-    axis = changed(
-        honeycomb(1, 2),
-        face_offsets=np.array([0, 3, 7], np.int32),
-        face_vertices=np.array([0, 1, 2, 4, 3, 2, 1], np.int32),
-    )
+    offsets, corners = np.array([0, 3, 7], np.int32), np.array([0, 1, 2, 4, 3, 2, 1], np.int32)
+    axis = changed(honeycomb(1, 2), face_offsets=offsets, face_vertices=corners)
     mesh = written(axis, "Mixed")
     assert [list(p.vertices) for p in mesh.polygons] == [[0, 1, 2], [4, 3, 2, 1]]
 
 
-@pytest.mark.parametrize(
-    ("fields", "error"),
-    [
-        ({"vertices": np.full((20, 3), 1e39)}, "InvalidInputError"),
-        ({"face_vertices": np.full(12, 10**6, np.int32)}, AssertionError),
-        ({"face_vertices": np.full(12, -1, np.int32)}, AssertionError),
-        ({"face_offsets": np.array([0, 1, 12], np.int32)}, AssertionError),
-        ({"theta": np.zeros(1)}, Exception),
-    ],
-    ids=[
-        "too large",
-        "index too large",
-        "negative index",
-        "polygon of one corner",
-        "short attribute",
-    ],
-)
+BROKEN = {
+    "too large": ({"vertices": np.full((20, 3), 1e39)}, "InvalidInputError"),
+    "index too large": ({"face_vertices": np.full(12, 10**6, np.int32)}, AssertionError),
+    "negative index": ({"face_vertices": np.full(12, -1, np.int32)}, AssertionError),
+    "polygon of one corner": ({"face_offsets": np.array([0, 1, 12], np.int32)}, AssertionError),
+    "short attribute": ({"theta": np.zeros(1)}, Exception),
+}
+
+
+@pytest.mark.parametrize(("fields", "error"), BROKEN.values(), ids=BROKEN)
 def test_nothing_is_left_of_a_mesh_that_cannot_be_made(fields, error):
     if isinstance(error, str):
         error = getattr(addon("core.errors"), error)
@@ -117,20 +103,17 @@ def test_what_needs_no_blender_is_computed_before_an_axis_is_written(monkeypatch
         monkeypatch.setattr(addon("bridge.mesh.write_mesh"), name, not_now)
     for form in ("CLEAN", "PUBLISHED", "CURVE"):
         compute(form=form)
-    bpy.context.scene.medial_axis.form = "CLEAN"
-    bpy.context.scene.medial_axis.simplify = 1.0
+    panel = bpy.context.scene.medial_axis
+    panel.form, panel.simplify = "CLEAN", 1.0
 
 
-@pytest.mark.parametrize("kind", ["monkey", "text"])
+@pytest.mark.parametrize("kind", ["monkey", "object.text"])
 def test_no_corner_of_a_sheet_is_shaded_from_behind(kind):
     """Renders draw such corners black."""
-    if kind == "monkey":
-        bpy.ops.mesh.primitive_monkey_add()
-    else:
-        bpy.ops.object.text_add()
-        bpy.context.object.data.body, bpy.context.object.data.extrude = "Medial", 0.1
-    assert bpy.ops.object.medial_axis() == {"FINISHED"}
-    mesh = bpy.context.object.data
+    source = added(kind)
+    if source.type == "FONT":
+        source.data.body, source.data.extrude = "Medial", 0.1
+    mesh = press("medial_axis").data
     found = addon("bridge.mesh.write_mesh")._corner_normals(mesh).reshape(len(mesh.polygons), -1, 3)
     own = np.array([polygon.normal for polygon in mesh.polygons])
     assert (np.einsum("ijk,ik->ij", found, own) >= 0.0).all()  # without area there is no side

@@ -44,14 +44,10 @@ def main():
 def parse():
     parser = argparse.ArgumentParser()
     parser.add_argument("--zip", required=True)
-    parser.add_argument(
-        "--model",
-        required=True,
-        help="'suzanne', 'bracket', or a .ply, .obj, .stl or .off file",
-    )
-    parser.add_argument(
-        "--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier"
-    )
+    models = "'suzanne', 'bracket', or a .ply, .obj, .stl or .off file"
+    parser.add_argument("--model", required=True, help=models)
+    levels = "levels of a Subdivision Surface modifier"
+    parser.add_argument("--subdivide", type=int, default=0, help=levels)
     parser.add_argument("--y-up", action="store_true", help="the file's Y axis points up")
     parser.add_argument("--flat", action="store_true", help="shade it flat, as a part with edges")
     parser.add_argument("--output", type=Path, required=True)
@@ -98,11 +94,11 @@ def load(model, levels, y_up):
         bpy.context.object.name = "Suzanne"
     elif model == "bracket":
         add_bracket()
-    elif path.suffix.lower() == ".off":
-        link(path.stem.capitalize(), *read_off(path))
     else:
         import_file(path)
     source = join_meshes()
+    if path.suffix.lower() == ".off":
+        source.name = path.stem.capitalize()
     if model != "bracket":  # which has flat faces
         source.data.polygons.foreach_set("use_smooth", np.ones(len(source.data.polygons), bool))
     if y_up:
@@ -131,10 +127,8 @@ def add_bracket():
 
 
 def drill(part, place, turn, radius):
-    """Cut a round hole."""
-    bpy.ops.mesh.primitive_cylinder_add(
-        vertices=64, radius=radius, depth=2, location=place, rotation=turn
-    )
+    options = {"vertices": 64, "depth": 2, "location": place, "rotation": turn}
+    bpy.ops.mesh.primitive_cylinder_add(radius=radius, **options)
     tool = bpy.context.object
     modifier = part.modifiers.new("Hole", "BOOLEAN")
     modifier.object = tool
@@ -150,11 +144,11 @@ def import_file(path):
         ".ply": bpy.ops.wm.ply_import if new else bpy.ops.import_mesh.ply,
         ".stl": bpy.ops.wm.stl_import if new else bpy.ops.import_mesh.stl,
         ".obj": bpy.ops.wm.obj_import,
+        ".off": bpy.ops.import_mesh.points_off,
     }
     if kind not in importers:
-        raise SystemExit(
-            f"Expected a .ply, .obj, .stl or .off file, found '{path.name}'; convert it first"
-        )
+        expected = "Expected a .ply, .obj, .stl or .off file"
+        raise SystemExit(f"{expected}, found '{path.name}'; convert it first")
     importers[kind](filepath=str(path))
 
 
@@ -177,22 +171,6 @@ def link(name, vertices, faces):
     bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
 
 
-def read_off(path):
-    """(vertices, faces) of an OFF file; comments and colours are skipped."""
-    lines = (line.split("#")[0].split() for line in path.read_text(encoding="utf-8").splitlines())
-    lines = [line for line in lines if line]
-    if not lines[0][0].endswith("OFF"):
-        raise SystemExit(f"Expected OFF on the first line of '{path.name}', found '{lines[0][0]}'")
-    counts, rows = (lines[0][1:], lines[1:]) if len(lines[0]) > 1 else (lines[1], lines[2:])
-    vertex_count, face_count = int(counts[0]), int(counts[1])
-    vertices = [tuple(map(float, row[:3])) for row in rows[:vertex_count]]
-    faces = [
-        tuple(map(int, row[1 : 1 + int(row[0])]))
-        for row in rows[vertex_count : vertex_count + face_count]
-    ]
-    return vertices, faces
-
-
 # --- the add-on at work
 
 
@@ -200,9 +178,8 @@ def compute(source):
     start = time.perf_counter()
     bpy.ops.object.medial_axis()
     result = bpy.context.view_layer.objects.active
-    print(
-        f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s"
-    )
+    seconds = time.perf_counter() - start
+    print(f"{result.name}: {len(result.data.polygons):,} facets after {seconds:.2f} s")
     return result
 
 
@@ -258,10 +235,8 @@ def save(folder, name):
 
 
 def render(folder, name):
-    path = folder / f"{name}.png"
-    start = time.perf_counter()
-    bpy.context.scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
+    path, start = folder / f"{name}.png", time.perf_counter()
+    blender_scene.render(path)
     print(f"{path.name}: rendered in {time.perf_counter() - start:.1f} s")
     return path
 

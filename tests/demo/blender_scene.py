@@ -118,9 +118,8 @@ def glass(shine=True):
     if shine:
         white = new("ShaderNodeEmission")
         body = mix(new, link, highlight(new, link), body, white.outputs[0])
-    front = mix(
-        new, link, new("ShaderNodeNewGeometry").outputs["Backfacing"], body, clear.outputs[0]
-    )
+    behind = new("ShaderNodeNewGeometry").outputs["Backfacing"]
+    front = mix(new, link, behind, body, clear.outputs[0])
     link(front, new("ShaderNodeOutputMaterial").inputs[0])
     return material
 

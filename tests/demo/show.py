@@ -15,10 +15,7 @@ from tools.packaging import paths
 from tools.packaging.blender import Blender
 from tools.packaging.terminal import Failure, say
 
-EXAMPLES = [
-    ("suzanne", ["--subdivide", "3"]),
-    ("bracket", []),
-]  # models with options of the demo script
+EXAMPLES = [("suzanne", ["--subdivide", "3"]), ("bracket", [])]  # with options of the demo script
 Model = Union[Path, str]  # a file, or the name of an example
 
 
@@ -47,8 +44,7 @@ def show_model(
     """Compute and render one model; returns what its Blender reports."""
     say(f"Medial axis of {model if isinstance(model, str) else model.name}")
     report = folder / "report.json"
-    if report.exists():
-        report.unlink()
+    report.unlink(missing_ok=True)
     blender = Blender([str(program)], folder / "profile")
     script = Path(__file__).with_name("blender_demo.py")
     options = ["--zip", archive, "--model", model, *extra, "--output", output, "--report", report]

@@ -43,9 +43,8 @@ def write_egg(path):
 def command_line(main, folder):
     """SHA-256 of the .ma file that the command line makes of it; `main` is that of medial_axis.cli."""
     write_egg(folder / "egg.off")
-    assert (
-        main([str(folder / "egg.off"), str(folder / "egg.ma"), "--side", "inner", "--quiet"]) == 0
-    )
+    files = [str(folder / name) for name in ("egg.off", "egg.ma")]
+    assert main([*files, "--side", "inner", "--quiet"]) == 0
     return digest(folder / "egg.ma")
 
 

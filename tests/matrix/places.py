@@ -157,9 +157,8 @@ def interpreters(version):
 def run_logged(command: list, log: Path) -> None:
     """Run what brings a Blender; raises UnavailableError with its last word."""
     with open(log, "ab") as output:
-        code = subprocess.run(
-            list(map(str, command)), stdout=output, stderr=subprocess.STDOUT
-        ).returncode
+        words = list(map(str, command))
+        code = subprocess.run(words, stdout=output, stderr=subprocess.STDOUT).returncode
     if code != 0:
         last = (log.read_text(encoding="utf-8", errors="replace").strip() or "?").splitlines()[-1]
         raise UnavailableError(f"{Path(command[0]).name} failed: {last.strip()[:200]} (see {log})")

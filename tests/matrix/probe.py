@@ -54,13 +54,12 @@ def set_stage():
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = 160, 120
     scene.cycles.samples, scene.cycles.use_denoising = 4, False
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera = scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.location = (0, 0, 4)
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.data.energy = 3
-    scene.collection.objects.link(camera)
-    scene.collection.objects.link(sun)
-    scene.camera = camera
+    for thing in (camera, sun):
+        scene.collection.objects.link(thing)
 
 
 def colours(engine, folder):

@@ -33,30 +33,15 @@ TESTS = ROOT / "tests" / "addon" / "run.py"
 sys.path.insert(0, str(HERE))
 
 import updates  # noqa: E402 - beside this, as the next
-from places import (  # noqa: E402
-    Bpy,
-    Chroot,
-    Failure,
-    Installed,
-    UnavailableError,
-    Wine,
-)
+from places import Bpy, Chroot, Failure, Installed, UnavailableError, Wine  # noqa: E402
 
 QUICK_SCENES = ["compute_drag_undo", "missing_module"]
 NO_RESULT = "no result"  # as after a crash, which not everything tells by its exit code
 HASHES = ("export", "command")  # of the .ma files of the operator and of the command line
 MARK = "<!-- written by tests/matrix/run.py: do not edit below -->"
 HEADER = (
-    "Blender",
-    "Where from",
-    "Python",
-    "NumPy",
-    "Installed as",
-    "Tests",
-    "Window",
-    "Rendered",
-    "Export, SHA-256",
-    "Command line, SHA-256",
+    *("Blender", "Where from", "Python", "NumPy", "Installed as", "Tests", "Window", "Rendered"),
+    *("Export, SHA-256", "Command line, SHA-256"),
 )
 
 
@@ -74,20 +59,11 @@ class Row:
     def cells(self) -> tuple[str, ...]:
         if self.skipped:
             return ("", self.source, *[""] * 7, f"not tested: {self.skipped}")
-        facts = self.facts
-        colours = facts.get("colours", {})
-        return (
-            facts.get("blender", "?"),
-            self.source,
-            facts.get("python", "?"),
-            facts.get("numpy", "?"),
-            facts.get("installed", "?"),
-            self.tests,
-            self.window,
-            ", ".join(colours) or "none",
-            facts.get("export", "none")[:16],
-            facts.get("command", "none")[:16],
-        )
+        names = ("blender", "python", "numpy", "installed")
+        blender, *others = (self.facts.get(name, "?") for name in names)
+        rendered = ", ".join(self.facts.get("colours", {})) or "none"
+        hashes = (self.facts.get(what, "none")[:16] for what in HASHES)
+        return (blender, self.source, *others, self.tests, self.window, rendered, *hashes)
 
 
 def examine_all(blenders: list, arguments: argparse.Namespace) -> list[Row]:
@@ -117,7 +93,10 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     probe(row, blender, use, keep, arguments)
     if arguments.quick and not blender.quick_tests:
         return row
-    judge_tests(row, *run_tests([*use, "--zip", arguments.zip], keep / "tests.log"), keep)
+    code, text = run_tests([*use, "--zip", arguments.zip], keep / "tests.log")
+    row.tests = summary_of(text)
+    if code != 0 or row.tests == NO_RESULT:
+        row.failures.append(f"tests: {row.tests} (see {keep / 'tests.log'})")
     if blender.words:
         window(row, use, keep, arguments)
         if row.facts.get("installed") == "extension":
@@ -137,12 +116,6 @@ def update(row: Row, blender, archive: Path) -> None:
 def has_module(archive: Path, name: str) -> bool:
     with zipfile.ZipFile(archive) as files:
         return any(f"_medial.{name}" in file for file in files.namelist())
-
-
-def judge_tests(row: Row, code: int, text: str, keep: Path) -> None:
-    row.tests = summary_of(text)
-    if code != 0 or row.tests == NO_RESULT:
-        row.failures.append(f"tests: {row.tests} (see {keep / 'tests.log'})")
 
 
 def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Namespace) -> None:
@@ -187,9 +160,7 @@ def window(row: Row, use: list[str], keep: Path, arguments: argparse.Namespace) 
     scenes = QUICK_SCENES if arguments.quick else []
     options = ["--zip", arguments.zip, "--gui", "--keep", keep / "gui", *scenes]
     code, text = run_tests([*use, *options], keep / "gui.log")
-    passed, failed = (
-        re.findall(rf"^{verdict}  (\w+)", text, re.M) for verdict in ("passed", "FAILED")
-    )
+    passed, failed = (re.findall(rf"^{how}  (\w+)", text, re.M) for how in ("passed", "FAILED"))
     row.window = f"{len(passed)} of {len(passed) + len(failed)} scenes"
     if code != 0 or not passed:
         row.failures.append(f"window: {', '.join(failed) or 'no scene'} (see {keep / 'gui.log'})")

@@ -14,7 +14,7 @@ from pathlib import Path
 from tests.support.claims import claim  # run.py makes it found
 
 HERE = Path(__file__).resolve().parent
-SIZE = (1280, 800)
+SIZE = (1280, 800)  # the screen, which the window fills
 SIZES = {"tutorial": (1280, 720), "first_glance": (1280, 720)}  # of other scenes
 # Blender goes on after these: Python failed, or a panel names a property, an operator or a menu that is not there.
 _ERROR = re.compile(
@@ -50,7 +50,7 @@ def run_all(blender, folder: Path, wanted: list[str], claims: Path | None = None
         if (wanted and name not in wanted) or (claims and not claim(claims, name)):
             continue
         with (
-            display(size_of(name)) as number,
+            display(SIZES.get(name, SIZE)) as number,
             contextlib.nullcontext() if with_module else module_hidden(blender),
         ):
             blender.environment |= {"DISPLAY": number, "LIBGL_ALWAYS_SOFTWARE": "1"}
@@ -58,11 +58,6 @@ def run_all(blender, folder: Path, wanted: list[str], claims: Path | None = None
         print(f"{'FAILED' if problem else 'passed'}  {name}  {problem}", flush=True)
         failed += [name] if problem else []
     return 1 if failed else 0
-
-
-def size_of(name: str) -> tuple[int, int]:
-    """The size of the screen of a scene; the window fills it."""
-    return SIZES.get(name, SIZE)
 
 
 @contextlib.contextmanager
@@ -98,20 +93,12 @@ def run_scene(blender, name: str, folder: Path) -> str:
     """Run one scene; returns what went wrong, or an empty string."""
     answer, log = folder / f"{name}.json", folder / f"{name}.log"
     answer.unlink(missing_ok=True)
-    command = [
-        *blender.program,
-        "--factory-startup",
-        "--window-geometry",
-        "0",
-        "0",
-        *map(str, size_of(name)),
-    ]
-    command += ["--python-exit-code", "1", "--python", str(HERE / "scenes.py")]
-    command += ["--", name, str(folder)]
+    command = [*blender.program, "--factory-startup", "--window-geometry", "0", "0"]
+    command += [*map(str, SIZES.get(name, SIZE)), "--python-exit-code", "1"]
+    command += ["--python", str(HERE / "scenes.py"), "--", name, str(folder)]
     with open(log, "wb") as output:
-        window = subprocess.Popen(
-            command, env=blender.environment, stdout=output, stderr=subprocess.STDOUT
-        )
+        options = {"env": blender.environment, "stdout": output, "stderr": subprocess.STDOUT}
+        window = subprocess.Popen(command, **options)
         limit = LIMIT * max(1.0, os.getloadavg()[0] / len(os.sched_getaffinity(0)))
         try:
             code = window.wait(limit)

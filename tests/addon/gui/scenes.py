@@ -21,9 +21,9 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from installed import addon
+from installed import MODULE, addon
 from measure import analyses, medial_objects, positions
-from scene import added, link, select
+from scene import added, link, new_object, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
@@ -34,10 +34,7 @@ THETA_LEFT, THETA_RIGHT = (112, 153), (78, 153)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
 SKELETON, THICKNESS = (150, 208), (150, 234)
-RESULT, REBUILD = (
-    (150, 208),
-    (150, 286),
-)  # where there is a result; the other, when the first is closed
+RESULT, REBUILD = (150, 208), (150, 286)  # where there is a result; the other below the closed first
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 360), (102, 386)
 MEASURE_THICKNESS, THICKEN = (102, 382), (102, 563)
@@ -89,11 +86,8 @@ def drag(start, end):
     yield from point(*start)
     xdotool("mousedown", 1)
     yield 0.2
-    steps = 8
-    for step in range(1, steps + 1):
-        xdotool(
-            "mousemove", *(a + (b - a) * step // steps for a, b in zip(start, end, strict=True))
-        )
+    for step in range(1, 9):
+        xdotool("mousemove", *(a + (b - a) * step // 8 for a, b in zip(start, end, strict=True)))
         yield 0.15
     xdotool("mouseup", 1)
     yield 0.5
@@ -106,10 +100,15 @@ def in_viewport():
     return bpy.context.temp_override(window=window(), area=area, region=region)
 
 
-def key(name):
-    """Press a key with the mouse over the viewport, left of its middle."""
+def point_at_viewport():
+    """The mouse is over the viewport, left of its middle."""
     area = viewport()
     yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+
+
+def key(name):
+    """Press a key with the mouse over the viewport."""
+    yield from point_at_viewport()
     xdotool("key", name)
     yield 0.8
 
@@ -118,9 +117,7 @@ def look(name):
     """Keep a picture of the screen; it must show something."""
     path = Path(FOLDER) / f"{NAME}-{name}.png"
     subprocess.run(["import", "-window", "root", str(path)], check=True)
-    colours = subprocess.run(
-        ["identify", "-format", "%k", str(path)], check=True, capture_output=True, text=True
-    ).stdout
+    colours = subprocess.check_output(["identify", "-format", "%k", str(path)], text=True)
     assert int(colours) > 500, f"{path} shows {colours} colours only"
 
 
@@ -157,6 +154,11 @@ def monkey():
     bpy.data.meshes.remove(mesh)
     source = bpy.data.objects["Suzanne"]
     source.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    return on_stage(source)
+
+
+def on_stage(source):
+    """The source is selected, and undo goes back to here."""
     select(source)
     bpy.ops.ed.undo_push(message="Scene is set")
     return source
@@ -171,11 +173,7 @@ def cloud(count=1_200_000):
     mesh.vertices.add(count)
     mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
     mesh.update()
-    source = bpy.data.objects.new("Cloud", mesh)
-    bpy.context.scene.collection.objects.link(source)
-    select(source)
-    bpy.ops.ed.undo_push(message="Scene is set")
-    return source
+    return on_stage(new_object("Cloud", mesh))
 
 
 def job():
@@ -186,9 +184,8 @@ def job_exists():
     return job() is not None
 
 
-job_exists.patience = (
-    10.0  # a click begins a job at once; one that was refused has none to wait for
-)
+# A click begins a job at once; one that was refused has none to wait for.
+job_exists.patience = 10.0
 
 
 def job_runs():
@@ -214,18 +211,14 @@ def no_result():
     return medial_objects() == []
 
 
-def surfaces():
-    return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
-
-
 def threads():
     return [thread for thread in threading.enumerate() if thread.name == "medial axis"]
 
 
 def nothing_is_left():
-    assert medial_objects() == [] and surfaces() == [] and threads() == []
-    assert not [m.name for m in bpy.data.meshes if "Medial" in m.name]
-    assert not [m.name for m in bpy.data.materials if "Medial" in m.name]
+    is_surface = addon("bridge.surface_object").is_surface
+    assert no_result() and threads() == [] and not any(map(is_surface, bpy.data.objects))
+    assert not [m.name for m in (*bpy.data.meshes, *bpy.data.materials) if "Medial" in m.name]
 
 
 def facets():
@@ -381,9 +374,8 @@ def assert_same_below(start, end, *names):
         (left, top), (right, bottom) = at(start), at(end)
         seen.append(pixels[top:bottom, left:right])
         bpy.data.images.remove(image)
-    assert np.allclose(*seen, atol=0.02), (
-        f"{np.ptp(np.argwhere(np.abs(seen[0] - seen[1]) > 0.02), axis=0)}"
-    )
+    other = np.argwhere(np.abs(seen[0] - seen[1]) > 0.02)
+    assert np.allclose(*seen, atol=0.02), f"{np.ptp(other, axis=0)}"
 
 
 def scene_auto_update():
@@ -396,17 +388,14 @@ def scene_auto_update():
     yield from look_after(1.0, "offered")  # the panel Result is open after the first computation
     yield from click(*at(AUTO_UPDATE))
     assert live_result().medial_axis_auto_update, "the switch was missed"
-    for part in (
-        moves_need_nothing,
-        edit_mode_waits,
-        undo_is_followed,
-        coarse_comes_first,
-        escape_stops_it,
-        files_keep_it,
-        disabled_while_it_waits,
-        deleted_source_ends_it,
-    ):
-        yield from part()
+    yield from moves_need_nothing()
+    yield from edit_mode_waits()
+    yield from undo_is_followed()
+    yield from coarse_comes_first()
+    yield from escape_stops_it()
+    yield from files_keep_it()
+    yield from disabled_while_it_waits()
+    yield from deleted_source_ends_it()
 
 
 def moves_need_nothing():
@@ -433,8 +422,8 @@ def edit_mode_waits():
     yield lambda: followed() > 1.5 * first and no_job()
     yield from look_after(0.7, "edited")
     assert not changed_since()
-    for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
-        yield from key(stroke)
+    for _ in range(3):  # out of edit mode, the scale, into edit mode
+        yield from key("ctrl+z")
     yield lambda: abs(followed() - first) < 1e-3 and no_job()
     assert bpy.context.object.mode == "OBJECT" and not changed_since()
 
@@ -499,15 +488,15 @@ def files_keep_it():
 
 def disabled_while_it_waits():
     """An edit that waits is dropped with the add-on, and found again when that comes back."""
-    first, module = followed(), os.environ["MEDIAL_AXIS_MODULE"]
+    first = followed()
     before = bpy.app.handlers.depsgraph_update_post[:]
     bpy.context.object.scale.x = 1.0
     yield 0.2
-    bpy.ops.preferences.addon_disable(module=module)
+    bpy.ops.preferences.addon_disable(module=MODULE)
     yield 1.5
     assert followed() == first and threads() == []
     assert len(bpy.app.handlers.depsgraph_update_post) == len(before) - 1
-    bpy.ops.preferences.addon_enable(module=module)
+    bpy.ops.preferences.addon_enable(module=MODULE)
     yield lambda: followed() < 0.7 * first and no_job()
 
 
@@ -532,9 +521,8 @@ def followed():
 
 
 def changed_since():
-    return addon("bridge.objects.source_state").differs(
-        live_result(), bpy.context.view_layer.depsgraph
-    )
+    differs = addon("bridge.objects.source_state").differs
+    return differs(live_result(), bpy.context.view_layer.depsgraph)
 
 
 def no_update():
@@ -585,8 +573,7 @@ def data(name):
 
 def text():
     """Letters that have a thickness."""
-    bpy.ops.object.text_add(rotation=(1.2, 0.0, 0.0))
-    thing = bpy.context.object
+    thing = added("object.text", rotation=(1.2, 0.0, 0.0))
     thing.data.body, thing.data.extrude, thing.data.bevel_depth = "Axis", 0.15, 0.02
     return thing
 
@@ -642,7 +629,7 @@ def scene_tutorial():
     turn_to_the_front()
     yield from open_tab()
     yield from look_after(0.5, "01")  # where the panel is
-    bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences.guided = True
+    bpy.context.preferences.addons[MODULE].preferences.guided = True
     yield 0.5
     yield from computed()
     yield from look_after(1.5, "02")  # one click
@@ -670,19 +657,14 @@ def scene_tutorial():
     bpy.data.batch_remove([*medial_objects(), source])
     with in_viewport():
         bpy.ops.mesh.primitive_torus_add(major_segments=192, minor_segments=64, minor_radius=0.35)
-    torus = bpy.context.object
-    torus.data.transform(uneven())
+    # A stretch makes the ring flat, so that its rims are hard to sample.
+    bpy.context.object.data.transform(Matrix.Diagonal((1.2, 0.9, 0.4, 1.0)))
     yield 0.7
     with in_viewport():
         assert bpy.ops.object.medial_axis_sampling_report() == {"FINISHED"}
     yield from look_after(1.5, "09")
     yield from computed()
     yield from look_after(1.5, "10")
-
-
-def uneven():
-    """A stretch that makes a ring flat, so that its rims are hard to sample."""
-    return Matrix(((1.2, 0, 0, 0), (0, 0.9, 0, 0), (0, 0, 0.4, 0), (0, 0, 0, 1)))
 
 
 def turn_to_the_front():
@@ -700,13 +682,11 @@ def branches():
     wire.modifiers.new("Subdivision", "SUBSURF").levels = 3
     depsgraph = bpy.context.evaluated_depsgraph_get()
     mesh = bpy.data.meshes.new_from_object(wire.evaluated_get(depsgraph))
-    source = bpy.data.objects.new("Branches", mesh)
-    bpy.context.scene.collection.objects.link(source)
+    source = new_object("Branches", mesh)
     bpy.data.objects.remove(wire)
     select(source)
     turn_to_the_front()
-    bpy.ops.ed.undo_push(message="Scene is set")
-    return source
+    return on_stage(source)
 
 
 def scene_what_comes_after():
@@ -726,10 +706,8 @@ def scene_what_comes_after():
     bpy.context.scene.medial_axis_thickness.limit = 0.45
     yield from fold(THICKNESS)
     look("4-thickness-panel")
-    yield from pressed(
-        MEASURE_THICKNESS,
-        lambda: addon("bridge.thickness.thickness_object").carrier_of(source) is not None,
-    )
+    carrier_of = addon("bridge.thickness.thickness_object").carrier_of
+    yield from pressed(MEASURE_THICKNESS, lambda: carrier_of(source) is not None)
     yield from look_after(1.0, "5-thickness-in-colours")
     assert addon("ui.base.show").shows_colours(viewport().spaces.active), "they are switched on"
     yield from pressed(THICKEN, lambda: "Medial Axis Thicken" in source.modifiers)
@@ -755,21 +733,13 @@ def scene_what_comes_after():
     yield from look_after(1.5, "9-nodes")
 
 
-def until(condition):
-    """Wait for a button's work; it is refused at once or begun, so the limit is short."""
-
-    def done():
-        return bool(condition()) and no_job()
-
+def pressed(button, condition):
+    """Click a button of the panel and wait for its work; it is refused at once or begun, so the limit is short."""
+    done = lambda: bool(condition()) and no_job()
     done.patience = 30.0
+    yield from click(*at(button))
     yield done
     yield patience(1.0)
-
-
-def pressed(button, condition):
-    """Click a button of the panel and wait for its work."""
-    yield from click(*at(button))
-    yield from until(condition)
 
 
 def fold(header):
@@ -801,8 +771,7 @@ def scene_cancel_with_escape():
     look("running")
     with in_viewport():
         assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
-    area = viewport()
-    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+    yield from point_at_viewport()
     asked = time.monotonic()
     xdotool("key", "Escape")
     yield no_job
@@ -856,8 +825,7 @@ def scene_undo_storm():
 
 def storm(strokes, heights):
     """Undoes `strokes` times, then redoes as often, with hardly a pause; adds the camera's heights in between."""
-    area = viewport()
-    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+    yield from point_at_viewport()
     for name in ("ctrl+z", "ctrl+shift+z"):
         xdotool("key", "--delay", 15, *[name] * strokes)
         yield 0.3
@@ -909,20 +877,16 @@ def play(scene):
     return step
 
 
-def answer(problem):
-    (Path(FOLDER) / f"{NAME}.json").write_text(json.dumps({"problem": problem}), encoding="utf-8")
-
-
 def end(problem):
-    answer(problem)
+    (Path(FOLDER) / f"{NAME}.json").write_text(json.dumps({"problem": problem}), encoding="utf-8")
     bpy.ops.wm.quit_blender()
 
 
 def start():
     bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.inputs.use_mouse_continuous = False  # else a drag warps the mouse
-    bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
-    preferences = bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    preferences = bpy.context.preferences.addons[MODULE].preferences
     preferences.guided = NAME != "tutorial"  # else its line moves what is below
     bpy.app.timers.register(play(globals()[f"scene_{NAME}"]()), first_interval=3.0, persistent=True)
 
