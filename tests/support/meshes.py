@@ -2,6 +2,7 @@
 """Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -178,6 +179,22 @@ def join(*meshes: Mesh) -> Mesh:
     )
 
 
+def shape_of(mesh: Mesh, *others: Any) -> Any:
+    """The mesh as the add-on takes it, whatever types its numbers have; `others` are the fields behind the faces."""
+    from medial_axis.core.shape.shape import Shape
+
+    points, triangles = mesh
+    return Shape(
+        np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32), *others
+    )
+
+
+def below(mesh: Mesh, height: float) -> Mesh:
+    """The mesh with the faces only whose middle is lower than that; all vertices stay."""
+    vertices, triangles = mesh
+    return vertices, triangles[vertices[triangles].mean(axis=1)[:, 2] < height]
+
+
 def flip(mesh: Mesh) -> Mesh:
     return mesh[0], np.ascontiguousarray(mesh[1][:, ::-1])
 
@@ -201,6 +218,14 @@ def write_off(path: Path, mesh: Mesh) -> str:
     rows = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
     rows += [" ".join(map(repr, row)) for row in vertices.tolist()]
     rows += [f"3 {a} {b} {c}" for a, b, c in triangles.tolist()]
+    path.write_text("\n".join(rows) + "\n")
+    return str(path)
+
+
+def write_obj(path: Path, mesh: Mesh) -> str:
+    """Writes every coordinate in full, and returns the path as text."""
+    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh[0].tolist()]
+    rows += [f"f {a} {b} {c}" for a, b, c in (mesh[1] + 1).tolist()]
     path.write_text("\n".join(rows) + "\n")
     return str(path)
 
