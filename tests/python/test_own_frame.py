@@ -198,9 +198,6 @@ def test_points_alone():
         assert near.axis.radius.max() == pytest.approx(there.axis.radius.max(), rel=0.01)
 
 
-# --- coordinates in 32 bits
-
-
 @pytest.mark.parametrize("name", ["plate", "profile"])
 def test_single_coordinates_at_a_thousand_sizes(name, tmp_path):
     """Their noise is 10^-4 sizes there: the products are those at the origin up to a few times that."""
@@ -223,9 +220,6 @@ def test_single_coordinates_at_a_hundred_thousand_sizes_are_told(name):
     except MedialAxisError:
         return
     assert any("known to about" in warning for warning in found.warnings)
-
-
-# --- the frame itself
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -236,9 +236,6 @@ def test_a_straight_flat_limb_bends_towards_its_flat_side(seed):
     np.testing.assert_allclose(np.abs(bones.up @ frame[:, 1]), 1.0, atol=1e-3)
 
 
-# --- other shapes
-
-
 def test_parts_that_are_apart_have_their_own_roots():
     far = biped().placed(np.diag((0.5, 0.5, 0.5, 1.0)) + np.eye(4, k=3) * 5.0)
     both = biped()
@@ -268,9 +265,6 @@ def test_a_rod_and_a_ring_have_bones():
     )
     _, bones, _ = named(ring)
     assert np.isfinite(bones.up).all() and (bones.parent < 0).sum() == 1
-
-
-# --- real bodies
 
 
 @pytest.mark.parametrize(

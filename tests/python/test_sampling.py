@@ -59,9 +59,6 @@ def test_cube_edges_and_corners(medial):
     assert farthest_from_samples(samples, vertices) <= 0.05 + 1e-9
 
 
-# --- density
-
-
 def test_density_of_curved_triangles_is_even(medial):
     """Sixteen sides of a cylinder, each bent to an arc: as many samples in the middle of a side as at its ends."""
     # without rows along the rims, which are as regular as the sides and would show in the counts
@@ -70,9 +67,6 @@ def test_density_of_curved_triangles_is_even(medial):
     turn = np.arctan2(samples.points[side, 1], samples.points[side, 0]) * 16 / (2 * np.pi) % 1
     found = np.histogram(turn, 8, (0, 1))[0]
     assert np.allclose(found, found.mean(), rtol=0.04)
-
-
-# --- creases
 
 
 def cylinder(sides):
@@ -158,9 +152,6 @@ def test_slivers_along_an_edge_leave_it_sharp(medial):
     assert sorted(corners) == sorted(vertices[:8].tolist())
 
 
-# --- invariance
-
-
 def test_seams_close(medial):
     """Every triangle with three vertices of its own is the same surface as with shared ones."""
     vertices, triangles = meshes.box()
@@ -170,9 +161,6 @@ def test_seams_close(medial):
     )
     assert np.bincount(torn.kind).tolist() == np.bincount(samples.kind).tolist()
     assert np.bincount(torn.kind, minlength=5)[BOUNDARY] == 0
-
-
-# --- smooth
 
 
 def off_sphere(points):
@@ -232,9 +220,6 @@ def test_sharp_edges_have_one_curve_for_both_sides(medial):
     assert np.hypot(*samples.points[cap, :2].T).max() <= 1 + 1e-3
     side = samples.points[surface & ~cap]
     assert 1 - 1.2 * spacing < np.abs(side[:, 2]).max() <= 1 + 1e-12
-
-
-# --- any mesh
 
 
 def test_needles_and_flat_triangles(medial):

@@ -45,9 +45,6 @@ def places_of(found, count, rng):
     return rows, first[rows]
 
 
-# --- random solids
-
-
 @pytest.mark.parametrize("away", AWAY)
 @pytest.mark.parametrize("seed", range(3))
 def test_turned_parts_have_walls_by_the_definition(seed, away):
@@ -93,8 +90,6 @@ def test_pipes_are_as_thick_as_their_walls(seed, away):
     assert measure(mesh).minimum == pytest.approx(thickness, rel=1e-6)
     assert measure(mesh, Settings()).minimum > 0.98 * thickness
 
-
-# --- solids that once were wrong
 
 # A cube and a box at a slant that sticks out of its top, as one solid: at corners convex edges end where reflex ones
 # begin, and faces 15 degrees apart are smooth.
@@ -230,9 +225,6 @@ def test_both_figures_are_reported(tmp_path, capsys):
     assert report["minimum"] < 0.1
     assert report["minimum_parallel"] == pytest.approx(1.26, rel=1e-6)
     assert "(1.26 between nearly parallel walls)" in capsys.readouterr().out
-
-
-# --- the rounding of the input
 
 
 @pytest.mark.parametrize("offset", [0.0, 3e5, 1e6])

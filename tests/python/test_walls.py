@@ -190,9 +190,6 @@ def test_the_report_has_the_share(tmp_path, capsys):
     assert any("missing or torn" in text for text in report["warnings"])
 
 
-# ---- distances
-
-
 def test_distances_are_those_of_a_box(medial):
     mesh = meshes.box((3, 3, 3), (1.0, 0.7, 0.4))
     points = np.array([[0.1, 0.2, 0.4], [1.0, 0.1, 0.05], [0.3, -0.7, 0.1], [0.1, 0.2, 0.4]])
