@@ -25,6 +25,7 @@ from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.load_skeleton import load_skeleton
 from medial_axis.core.skeleton.middle import lead_through_middle
+from medial_axis.core.skeleton.mirror import _image
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.skeleton import Skeleton, centre_of_mass
 from medial_axis.core.skeleton.warnings import skeleton_warnings
@@ -129,14 +130,12 @@ def test_ends_and_loops_of_real_meshes(data_file, name, tips, loops):
 
 def limb_ends(shape, found):
     """The vertex of the surface farthest out at each tip of a skeleton, (t, 3), and the tips."""
-    tips = np.flatnonzero(found.degree == 1)
+    tips, radii = ends_of(found)
     ends = []
-    for tip in tips:
-        way = found.points[tip] - found.points.mean(axis=0)
-        near = np.linalg.norm(shape.points - found.points[tip], axis=1) < 2 * found.radius[tip]
-        rows = np.flatnonzero(near)
-        ends.append(shape.points[rows[np.argmax((shape.points[rows] - found.points[tip]) @ way)]])
-    return np.array(ends), found.points[tips]
+    for tip, radius in zip(tips, radii, strict=True):
+        near = shape.points[np.linalg.norm(shape.points - tip, axis=1) < 2 * radius]
+        ends.append(near[np.argmax((near - tip) @ (tip - found.points.mean(axis=0)))])
+    return np.array(ends), tips
 
 
 def test_chosen_ends_of_a_hand_and_no_others(data_file):
@@ -277,10 +276,9 @@ def test_mirrored_model_mirrored_names():
 # --- bones and weights
 
 
-RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
-
-
-@pytest.fixture(params=RIGGED, scope="module")
+@pytest.fixture(
+    params=["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"], scope="module"
+)
 def rigged(request, data_file):
     """A shape and its rig."""
     shape, _ = read_shape(data_file(request.param))
@@ -291,11 +289,10 @@ def test_bones_are_few_connected_and_near_the_curve(rigged):
     _, rig = rigged
     bones, skeleton = rig.bones, rig.made_of.skeleton
     assert bones.count <= 3 * skeleton.tips + 20 and len(set(rig.names)) == bones.count
-    child = bones.connected
+    child, forks = bones.connected, np.flatnonzero(skeleton.degree > 2)
     np.testing.assert_array_equal(bones.head[child], bones.tail[bones.parent[child]])
     assert (bones.parent < np.arange(bones.count)).all()
-    forks = skeleton.radius[skeleton.degree > 2]
-    assert bones.head_radius[0] >= 0.9 * forks.max()
+    assert bones.head_radius[0] >= 0.9 * skeleton.radius[forks].max()
     share = np.linspace(0, 1, 200)[:, None, None]
     along = ((1 - share) * bones.head + share * bones.tail).reshape(-1, 3)
     away = cKDTree(along).query(skeleton.points)[0]
@@ -303,7 +300,6 @@ def test_bones_are_few_connected_and_near_the_curve(rigged):
     thin = np.zeros(len(skeleton.points))
     for rows in skeleton.branches:
         thin[rows] = np.maximum(thin[rows], skeleton.radius[rows].mean() / 2)
-    forks = np.flatnonzero(skeleton.degree > 2)
     gaps = np.linalg.norm(skeleton.points[:, None] - skeleton.points[forks], axis=2)
     aside = (gaps > 1.5 * skeleton.radius[forks]).all(axis=1)
     assert aside.any()
@@ -422,11 +418,10 @@ def test_no_vertex_flies_away(rigged):
     shape, rig = rigged
     edges = edges_of(shape.triangles)
     size = np.linalg.norm(np.ptp(shape.points, axis=0))
-    a, b = shape.points[edges[:, 0]], shape.points[edges[:, 1]]
+    lengths = lambda points: np.linalg.norm(np.subtract(*points[edges.T]), axis=1)
     for seed in range(20):
         found = posed(rig, shape.points, random_turns(rig.bones, seed))
-        longer = np.linalg.norm(found[edges[:, 0]] - found[edges[:, 1]], axis=1)
-        assert (longer - np.linalg.norm(a - b, axis=1)).max() < 0.07 * size
+        assert (lengths(found) - lengths(shape.points)).max() < 0.07 * size
 
 
 def test_little_skin_folds_in_a_bend(rigged):
@@ -436,14 +431,13 @@ def test_little_skin_folds_in_a_bend(rigged):
     area = np.linalg.norm(across, axis=1)
     for bone in np.flatnonzero(rig.bones.parent >= 0):
         hinge = np.cross(rig.bones.tail[bone] - rig.bones.head[bone], rig.bones.up[bone])
-        for angle in (-40, 40):
-            moved = posed(rig, shape.points, {bone: turn(hinge, np.radians(angle))})
-            follows = (rig.weight * (rig.bone == bone)).sum(axis=1)[shape.triangles].mean(axis=1)
-            here = topology.vector_areas(moved, shape.triangles)
-            with_bone = across @ turn(hinge, np.radians(angle)).T
-            way = across + follows[:, None] * (with_bone - across)
-            inner = follows > 0.0
-            folded.append(area[inner & ((way * here).sum(axis=1) < 0.0)].sum() / area.sum())
+        follows = (rig.weight * (rig.bone == bone)).sum(axis=1)[shape.triangles].mean(axis=1)
+        for angle in np.radians((-40, 40)):
+            bend = turn(hinge, angle)
+            here = topology.vector_areas(posed(rig, shape.points, {bone: bend}), shape.triangles)
+            way = across + follows[:, None] * (across @ bend.T - across)
+            turned = (follows > 0.0) & ((way * here).sum(axis=1) < 0.0)
+            folded.append(area[turned].sum() / area.sum())
     assert max(folded) < 0.03 and np.mean(folded) < 0.002
 
 
@@ -469,15 +463,12 @@ def test_json_has_everything(two_rings_and_a_y, tmp_path):
 def test_swc_is_a_tree_of_all_points(two_rings_and_a_y, tmp_path):
     for found in two_rings_and_a_y:
         path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.swc")
-        lines = path.read_text().splitlines()
-        table = np.array([line.split() for line in lines if line[0] != "#"], float)
+        table = np.loadtxt(path)
         assert len(table) == len(found.skeleton.points)
         assert (table[:, 6] < table[:, 0]).all() and (table[:, 6] == -1).sum() == 1
-        np.testing.assert_array_equal(
-            np.sort(table[:, 2:6], axis=0),
-            np.sort(np.column_stack((found.skeleton.points, found.skeleton.radius)), axis=0),
-        )
-        closing = [line for line in lines if "closes a loop" in line]
+        balls = np.column_stack((found.skeleton.points, found.skeleton.radius))
+        np.testing.assert_array_equal(np.sort(table[:, 2:6], axis=0), np.sort(balls, axis=0))
+        closing = [line for line in path.read_text().splitlines() if "closes a loop" in line]
         assert len(closing) == found.skeleton.loops
 
 
@@ -546,7 +537,7 @@ def test_spread_is_dijkstras():
     edges = edges[edges[:, 0] != edges[:, 1]]
     seeds = np.array([3, 50, 120])
     label, distance = spread(graph_of(points, edges), seeds, np.arange(3))
-    length = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+    length = np.linalg.norm(np.subtract(*points[edges.T]), axis=1)
     graph = coo_array((length, edges.T), shape=(300, 300)).tocsr()
     away = dijkstra(graph, directed=False, indices=seeds)
     np.testing.assert_allclose(distance, away.min(axis=0))
@@ -560,9 +551,8 @@ def test_nearest_is_that_of_a_tree():
     others = rng.normal(size=(2000, 3)) ** 3
     points = rng.normal(size=(500, 3)) * 4
     row = nearest(points, others)
-    np.testing.assert_allclose(
-        np.linalg.norm(points - others[row], axis=1), cKDTree(others).query(points)[0]
-    )
+    away = np.linalg.norm(points - others[row], axis=1)
+    np.testing.assert_allclose(away, cKDTree(others).query(points)[0])
     assert nearest(points[:3], others[:1]).tolist() == [0, 0, 0]
     assert nearest(np.zeros((2, 3)), np.zeros((5, 3))).tolist() == [0, 0]
 
@@ -590,25 +580,25 @@ def net_of(points, wires=None, radius=0.1, load=None):
     return Net(points, radius, wires, np.zeros(0, np.int32), load)
 
 
-def ladder():
-    """A large loop, and a rung whose middle is thin."""
+def ladder(middle):
+    """A large loop, and a rung whose middle has this radius."""
     points = [(0, 0, 0), (4, 0, 0), (4, 2, 0), (4, 4, 0), (0, 4, 0), (0, 2, 0), (2, 2, 0)]
     wires = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (2, 6), (6, 5)]
-    return points, wires
+    return net_of(points, wires, [0.5] * 6 + [middle])
 
 
 def test_thin_loops_are_cut_and_others_stay():
-    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    net = ladder(0.01)
     assert clear_loops(net, np.full(7, 0.1)).cut == 1
     assert len(net.branches) == 1 and not net.tips() and net.load.sum() == pytest.approx(1.0)
-    net = net_of(*ladder(), [0.5] * 7)
+    net = ladder(0.5)
     loops = clear_loops(net, np.full(7, 0.1))
     assert (loops.cut, loops.filled, len(net.branches)) == (0, 0, 3)
 
 
 def test_loops_open_at_their_thinnest_edge():
     """Two loops that share a rung are both opened, every point stays, and nothing comes apart."""
-    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    net = ladder(0.01)
     rows = {row for chain in net.branches.values() for row in chain}
     loops, tips = net.loops(), len(net.tips())
     open_loops(net)
@@ -658,8 +648,7 @@ def test_pinholes_are_filled():
 
 def test_limbs_stay_and_ridges_go():
     points = [(0, 0, 0), (-3, 0, 0), (3, 0, 0), (0, 3, 0), (0, -0.6, 0)]
-    wires = [(0, 1), (0, 2), (0, 3), (0, 4)]
-    load = [0.5, 0.15, 0.15, 0.15, 0.05]
+    wires, load = [(0, 1), (0, 2), (0, 3), (0, 4)], [0.5, 0.15, 0.15, 0.15, 0.05]
     net = net_of(points, wires, [1.0, 0.5, 0.5, 0.5, 0.5], load)
     none = np.zeros(0, np.int64)
     balls = balls_of(none, np.zeros((0, 3)), np.zeros(0), none, 5)
@@ -678,8 +667,6 @@ def test_each_point_of_a_chain_has_its_own_tolerance(tolerance, kept):
 
 
 def test_an_image_is_as_far_behind_the_plane():
-    from medial_axis.core.skeleton.mirror import _image
-
     assert _image(np.array([(1.0, 2.0, 3.0)]), 5.0).tolist() == [[9.0, 2.0, 3.0]]
 
 
@@ -706,12 +693,11 @@ def test_lines_are_in_the_middle_of_a_body(data_file):
     shape, _ = read_shape(data_file("spot_low.obj"))
     places, _ = places_of(skeleton_of(shape).skeleton, steps=3)
     room = distance_to_faces(places, shape)
-    steps = 1e-3 * np.mean(room) * np.eye(3)
-    grown = [
-        distance_to_faces(places + s, shape) - distance_to_faces(places - s, shape) for s in steps
+    way = [
+        distance_to_faces(places + step, shape) - distance_to_faces(places - step, shape)
+        for step in 1e-3 * np.mean(room) * np.eye(3)
     ]
-    way = np.array(grown).T
-    way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+    way = np.transpose(way) / np.maximum(np.linalg.norm(way, axis=0), 1e-300)[:, None]
     larger = distance_to_faces(places + 0.05 * room[:, None] * way, shape) > 1.049 * room
     assert larger.mean() < 0.05
 
