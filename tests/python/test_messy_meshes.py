@@ -179,9 +179,8 @@ def test_open_meshes_say_so(medial, computed, name):
 def test_faces_that_look_inward_are_read_outward(medial, computed, name):
     """The axis is that of the faces as they should look, and a sentence says how many looked inward."""
     mesh, result = computed(name, sampling=SamplingMode.SURFACE)
-    assert (
-        result.sides.source is SidesFrom.SURFACE and result.sides.reason == "the faces are closed"
-    )
+    assert result.sides.source is SidesFrom.SURFACE
+    assert result.sides.reason == "the faces are closed"
     assert result.axis.facets > 100
     assert any("looked inward" in text for text in result.warnings)
     assert_inside(result.axis, (mesh[0], medial.outward_faces(*mesh)[0]))

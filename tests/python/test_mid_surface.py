@@ -21,35 +21,30 @@ from medial_axis.core.mid_surface.sheet_faces import SheetFaces
 from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.shape import Shape
 from support import distance, mid_surfaces, reference, topology
-from support.meshes import write_off
+from support.meshes import shape_of, write_off
 from support.thick_meshes import block, lathe, pipe
 from support.thin_solids import turned, union
 
 
 def sheets_of(mesh, settings=Settings(samples=4000), **wanted):
-    points, triangles = mesh
-    shape = Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
-    return mid_surface(shape, settings, MidSurfaceSettings(**wanted))
+    return mid_surface(shape_of(mesh), settings, MidSurfaceSettings(**wanted))
 
 
-def areas(found):
-    return np.linalg.norm(turns_of(found.vertices, found.triangles), axis=1) / 2
+def area(found):
+    return topology.area(found.vertices, found.triangles)
 
 
-def turns_of(points, triangles):
-    """(t, 3) the normals of triangles, twice as long as these are large."""
-    a, b, c = (points[triangles[:, i]] for i in range(3))
-    return np.cross(b - a, c - a)
+def assert_one_disc(found):
+    """One sheet in one piece without holes, of few polygons."""
+    assert found.sheets == topology.components(found.triangles) == 1
+    assert topology.euler(found.triangles) == 1 and len(found.part) < 30
 
 
 def off(known, places):
     """(n,) how far places are from the rectangles."""
-    found = np.full(len(places), np.inf)
-    for corner, u, v in known.rectangles:
-        along = [np.clip((places - corner) @ side / (side @ side), 0, 1) for side in (u, v)]
-        nearest = corner + along[0][:, None] * u + along[1][:, None] * v
-        found = np.minimum(found, np.linalg.norm(places - nearest, axis=1))
-    return found
+    corner, u, v = known.rectangles.transpose(1, 0, 2)
+    halves = [np.stack((corner, corner + side, corner + u + v), axis=1) for side in (u, v)]
+    return distance.to_triangles(places, np.concatenate(halves))
 
 
 @pytest.mark.parametrize("name", mid_surfaces.FLAT)
@@ -86,7 +81,7 @@ def check_flat(known, found):
     assert away.max() < 0.005 * known.t, "corners of walls and ends of junctions are vertices"
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
     exact = np.linalg.norm(np.cross(*known.rectangles[:, 1:].transpose(1, 0, 2)), axis=1).sum()
-    assert areas(found).sum() == pytest.approx(exact, rel=0.001)
+    assert area(found) == pytest.approx(exact, rel=0.001)
     triangles = found.triangles
     assert topology.euler(triangles) == known.betti[0] - known.betti[1] + known.betti[2]
     assert topology.components(triangles) == known.betti[0]
@@ -110,14 +105,10 @@ def test_ribs_and_their_plate_thickened_are_the_solid():
 
 def in_prism(places, triangle, height):
     """(n,) which places are at most half of a height beside a triangle, in the direction of its normal."""
-    a, b, c = triangle
-    normal = np.cross(b - a, c - a)
+    (normal,) = topology.vector_areas(triangle, np.array([(0, 1, 2)]))
     size = np.linalg.norm(normal)
-    if not size:
-        return np.zeros(len(places), bool)
-    normal = normal / size
-    beside = np.abs((places - a) @ normal) <= height / 2
-    for start, end in ((a, b), (b, c), (c, a)):
+    beside = (np.abs((places - triangle[0]) @ normal) <= size * height / 2) & (size > 0.0)
+    for start, end in zip(triangle, np.roll(triangle, -1, axis=0), strict=True):
         beside &= (places - start) @ np.cross(normal, end - start) >= 0.0
     return beside
 
@@ -127,7 +118,7 @@ def test_a_web_reaches_its_flange_between_reflex_edges():
     mesh = union(((0.2, 0, 1.0), (0.4, 0.2, 1.02)), ((0.29, 0, 0.85), (0.31, 0.2, 1.02)))
     found = sheets_of(mesh, Settings(samples=800))
     assert found.sheets == 3 and topology.components(found.triangles) == 1
-    assert areas(found).sum() == pytest.approx(0.2 * 0.2 + 0.16 * 0.2, rel=0.005)
+    assert area(found) == pytest.approx(0.2 * 0.2 + 0.16 * 0.2, rel=0.005)
 
 
 def test_a_bent_sheet_is_in_the_middle_and_has_its_area():
@@ -141,29 +132,26 @@ def test_a_bent_sheet_is_in_the_middle_and_has_its_area():
     assert away.max() < 0.1 * known.t and np.quantile(away, 0.99) < 0.03 * known.t
     assert y.min() > -0.05 * known.t and y.max() < 1.0 + 0.05 * known.t
     assert found.sheets == 1 and topology.euler(found.triangles) == 1
-    assert areas(found).sum() == pytest.approx(1.0 + 0.05 * np.pi, rel=0.001)
+    assert area(found) == pytest.approx(1.0 + 0.05 * np.pi, rel=0.001)
     assert found.share == pytest.approx(1.0, abs=0.01)
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
 
 
+def assert_polygon(mesh, sides, bar):
+    found = sheets_of(mesh, Settings(samples=2500))
+    assert_one_disc(found)
+    assert area(found) == pytest.approx(0.125 * sides * np.sin(2 * np.pi / sides), rel=bar)
+
+
 def test_a_rim_round_a_plate_does_not_cross_itself():
     """The plate is thinner than samples are apart, so its rim zigzags before it is carried on to the wall."""
-    known = mid_surfaces.round_plate(sides=40)
-    found = sheets_of(known.mesh, Settings(samples=2500))
-    assert found.sheets == topology.components(found.triangles) == 1
-    assert topology.euler(found.triangles) == 1 and len(found.part) < 30
-    exact = 0.125 * 40 * np.sin(2 * np.pi / 40)
-    assert areas(found).sum() == pytest.approx(exact, rel=0.002)
+    assert_polygon(mid_surfaces.round_plate(sides=40).mesh, 40, 0.002)
 
 
 @pytest.mark.parametrize("sides, t", ((12, 0.005), (8, 0.002), (6, 0.002), (3, 0.002)))
 def test_plates_thinner_than_samples_are_apart_reach_their_walls(sides, t):
     """The rim of their axis is one closed line, which was drawn together in a point."""
-    found = sheets_of(mid_surfaces.round_plate(sides, t).mesh, Settings(samples=2500))
-    assert found.sheets == topology.components(found.triangles) == 1
-    assert topology.euler(found.triangles) == 1 and len(found.part) < 30
-    exact = 0.125 * sides * np.sin(2 * np.pi / sides)
-    assert areas(found).sum() == pytest.approx(exact, rel=0.005)
+    assert_polygon(mid_surfaces.round_plate(sides, t).mesh, sides, 0.005)
 
 
 @pytest.mark.slow
@@ -173,8 +161,7 @@ def test_a_shell_with_two_holes_has_its_area():
     found = sheets_of(known.mesh)
     triangles = found.triangles
     assert found.sheets == topology.components(triangles) == 1 and topology.euler(triangles) == 0
-    exact = 4 * np.pi * np.cos(np.radians(25))
-    assert areas(found).sum() == pytest.approx(exact, rel=0.01)
+    assert area(found) == pytest.approx(4 * np.pi * np.cos(np.radians(25)), rel=0.01)
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
     assert found.share == pytest.approx(1.0, abs=0.01)
 
@@ -184,21 +171,26 @@ def test_a_leaf_tapers_to_its_edge():
     known = mid_surfaces.leaf()
     found = sheets_of(known.mesh)
     assert found.sheets == 1 and np.abs(found.vertices[:, 2]).max() < 0.01 * known.t
-    assert areas(found).sum() == pytest.approx(np.pi, rel=0.005)
+    assert area(found) == pytest.approx(np.pi, rel=0.005)
     away = np.linalg.norm(found.vertices[:, :2], axis=1)
-    np.testing.assert_allclose(found.of_vertices, known.t * (1 - away**2), atol=0.005 * known.t)
     assert (found.of_vertices[away > 0.9999] < 1e-6 * known.t).all()
-    exact = known.t * (1 - (middles_of(found)[:, :2] ** 2).sum(axis=1))
-    np.testing.assert_allclose(found.thickness, exact, atol=0.005 * known.t)
+    assert_falls_with_the_square(found, known.t, 0.005, 0.005)
     assert found.share == pytest.approx(1.0, abs=0.01)
 
 
-def middles_of(found):
-    """The middle of each face, by area."""
-    middles = areas(found)[:, None] * found.vertices[found.triangles].mean(axis=1)
+def assert_falls_with_the_square(found, t, rim, face):
+    """The thickness at vertices, and at the middle of each face, by area."""
+    sizes = np.linalg.norm(topology.vector_areas(found.vertices, found.triangles), axis=1)
     sums = np.zeros((len(found.part), 3))
-    np.add.at(sums, found.face_of_triangles, middles)
-    return sums / np.bincount(found.face_of_triangles, areas(found))[:, None]
+    middles = found.vertices[found.triangles].mean(axis=1)
+    np.add.at(sums, found.face_of_triangles, sizes[:, None] * middles)
+    middles = sums / np.bincount(found.face_of_triangles, sizes)[:, None]
+    for lengths, places, bar in (
+        (found.of_vertices, found.vertices, rim),
+        (found.thickness, middles, face),
+    ):
+        exact = t * (1 - (places[:, :2] ** 2).sum(axis=1))
+        np.testing.assert_allclose(lengths, exact, atol=bar * t)
 
 
 @pytest.mark.parametrize("t, rim, face", [(0.05, 0.005, 0.005), (0.03, 0.02, 0.01)])
@@ -211,22 +203,28 @@ def test_a_lens_with_a_flat_rim_keeps_its_thickness_there(t, rim, face):
     found = sheets_of(lathe(profile, 96))
     away = np.linalg.norm(found.vertices[:, :2], axis=1)
     assert found.sheets == 1 and away.max() == pytest.approx(radius, rel=1e-3)
-    np.testing.assert_allclose(found.of_vertices, t * (1 - away**2), atol=rim * t)
-    exact = t * (1 - (middles_of(found)[:, :2] ** 2).sum(axis=1))
-    np.testing.assert_allclose(found.thickness, exact, atol=face * t)
+    assert_falls_with_the_square(found, t, rim, face)
 
 
-def test_a_block_is_no_wall():
-    mesh = block(1.0, 0.9, 0.8)
+@pytest.mark.parametrize(
+    "mesh, samples", [(block(1.0, 0.9, 0.8), 4000), (pipe(32, 1.0, 1.0, 0.5, 0.5), 2000)]
+)
+def test_what_is_as_thick_as_it_is_long_has_no_thin_wall(mesh, samples):
     with pytest.raises(InvalidInputError, match="found none"):
-        sheets_of(mesh)
+        sheets_of(mesh, Settings(samples=samples))
+
+
+# Two fins on opposite sides of a block, which is no wall.
+FINS = union(
+    ((-0.2, 0, -0.2), (0.2, 0.4, 0.2)),
+    ((-0.8, 0, -0.01), (0, 0.4, 0.01)),
+    ((0, 0, -0.01), (0.8, 0.4, 0.01)),
+)
 
 
 def test_sheets_that_a_thick_part_joins_are_told():
-    """Two fins on opposite sides of a block, which is no wall: there are two pieces of one solid."""
-    body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
-    mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
-    found = sheets_of(mesh)
+    """There are two pieces of one solid."""
+    found = sheets_of(FINS)
     assert found.sheets == topology.components(found.triangles) == 2
     said = [text for text in found.warnings if "2 pieces and the solid 1" in text]
     assert len(said) == 1 and "what joins them is not thin" in said[0]
@@ -234,15 +232,11 @@ def test_sheets_that_a_thick_part_joins_are_told():
 
 def test_thick_parts_are_kept_by_choice(tmp_path, capsys):
     """Faces of a block stay, and those of the two fins on it do not."""
-    body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
-    mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
-    assert sheets_of(mesh).thick is None
-    found = sheets_of(mesh, keep_thick=True)
+    assert sheets_of(FINS).thick is None
+    found = sheets_of(FINS, keep_thick=True)
     assert np.abs(found.thick.vertices).max() < 0.401
-    a, b, c = found.thick.vertices[found.thick.triangles].transpose(1, 0, 2)
-    kept = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-    assert kept == pytest.approx(6 * 0.4 * 0.4 - 2 * 0.4 * 0.02, rel=1e-9)
-    source = write_off(tmp_path / "part.off", mesh)
+    assert area(found.thick) == pytest.approx(6 * 0.4 * 0.4 - 2 * 0.4 * 0.02, rel=1e-9)
+    source = write_off(tmp_path / "part.off", FINS)
     assert run(source, tmp_path / "part.obj", "--keep-thick") == cli.DONE
     assert (tmp_path / "part_thick.stl").stat().st_size == 84 + 50 * len(found.thick.triangles)
 
@@ -301,8 +295,9 @@ def test_vertices_at_one_place_stay_two_where_uniting_them_closes_a_hole():
 
 
 def pot(around, wall):
-    profile = ((0, 0), (0.35, 0), (0.5, 0.55), (0.5 - wall, 0.55), (0.35 - wall, wall), (0, wall))
-    return lathe(list(profile), around)
+    return lathe(
+        [(0, 0), (0.35, 0), (0.5, 0.55), (0.5 - wall, 0.55), (0.35 - wall, wall), (0, wall)], around
+    )
 
 
 def test_a_vertex_between_sheets_stays_between_them():
@@ -332,11 +327,15 @@ def test_triangles_of_a_size_are_even(name):
     assert lengths.max() < 0.05 * 1.5 and np.median(lengths) == pytest.approx(0.05, rel=0.15)
     cosines = -(sides * np.roll(sides, 1, axis=1)).sum(2) / (lengths * np.roll(lengths, 1, axis=1))
     least = np.degrees(np.arccos(cosines.max(axis=1)))
-    assert least.min() > 10 and np.quantile(least, 0.01) > 20
-    whole = sheets_of(known.mesh)
+    assert least.min() > 10 and np.quantile(least, 0.01) > 20 and found.sheets in (1, 3)
+    assert_as_without_a_size(found, known.mesh)
+
+
+def assert_as_without_a_size(found, mesh):
+    whole = sheets_of(mesh)
     assert topology.euler(found.triangles) == topology.euler(whole.triangles)
-    assert areas(found).sum() == pytest.approx(areas(whole).sum(), rel=2e-3)  # chords of the bend
-    assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets == 3)
+    assert area(found) == pytest.approx(area(whole), rel=2e-3)  # chords of the bend
+    assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets > 1)
 
 
 @pytest.mark.parametrize("name", ["profile_t", "ribbed_plate", "bent_sheet"])
@@ -351,15 +350,9 @@ def test_quads_of_a_size_are_even(name):
     assert sines.min() > 0.49 and (name != "profile_t" or sines.min() > 0.999)
     sides = np.linalg.norm(found.vertices[four] - found.vertices[np.roll(four, 1, axis=1)], axis=2)
     assert sides.max() < 0.05 * 1.75 and np.median(sides) == pytest.approx(0.05, rel=0.15)
-    whole = sheets_of(known.mesh)
-    assert topology.euler(found.triangles) == topology.euler(whole.triangles)
+    assert_as_without_a_size(found, known.mesh)
     assert topology.components(found.triangles) == 1
-    assert areas(found).sum() == pytest.approx(areas(whole).sum(), rel=2e-3)
-    assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets > 1)
-    turns = np.cross(
-        found.vertices[four[:, 1]] - found.vertices[four[:, 0]],
-        found.vertices[four[:, 2]] - found.vertices[four[:, 0]],
-    )
+    turns = topology.vector_areas(found.vertices, four[:, :3])
     for sheet in range(found.sheets if name != "bent_sheet" else 0):
         mine = turns[found.part[sizes == 4] == sheet]
         assert (mine @ mine.sum(axis=0)).min() > 0.0, "faces of a sheet turn the same way"
@@ -397,16 +390,13 @@ def test_only_around_a_border_that_crosses_itself_triangles_stay(past):
     places[at[6, 2], 0] = past
     a, b, c, d = (each[solid] for each in (at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]))
     triangles = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
-    sheets = CarriedSheets(
-        places,
-        triangles.astype(np.int32),
-        np.zeros(len(triangles), np.int32),
-        np.full(triangles.shape, 0.5),
-    )
+    triangles, part = triangles.astype(np.int32), np.zeros(len(triangles), np.int32)
+    sheets = CarriedSheets(places, triangles, part, np.full(triangles.shape, 0.5))
     found = few_faces.few_faces(sheets, len(places), None)
     assert 3 < len(found.part) < 60 and not len(crossings(found)[0])
-    whole, left = turns_of(places, triangles), turns_of(found.vertices, found.triangles)
-    np.testing.assert_allclose(left.sum(axis=0), whole.sum(axis=0), atol=1e-9)
+    meshes = (places, triangles), (found.vertices, found.triangles)
+    whole, left = (topology.vector_areas(*mesh).sum(axis=0) for mesh in meshes)
+    np.testing.assert_allclose(left, whole, atol=0.5e-9)
     assert topology.euler(found.triangles) == 1 and topology.edges(found.triangles)[1].max() == 2
     largest = found.ring(int(np.diff(found.offsets).argmax()))
     assert np.ptp(largest, axis=0)[:2].min() == 12.0
@@ -420,23 +410,16 @@ def test_a_polygon_that_crosses_itself_is_no_face():
     looped = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
     beside = [(-4, 0), (0, 0), (0, 4), (-4, 4)]
     apart = [(-9, 0), (-5, 0), (-5, 4), (-9, 4)]
-    places = np.array([*apart, *beside, *looped], float)
-    places = np.column_stack((places, np.zeros(len(places))))
+    places = np.insert(np.array([*apart, *beside, *looped], float), 2, 0.0, axis=1)
     offsets, part = np.array((0, 4, 8, 16), np.int32), np.arange(3, dtype=np.int32)
     faces = SheetFaces(places, offsets, np.arange(16, dtype=np.int32), part)
-    own = np.array([*apart, *beside, (4, 0), (4, 4)], float)
+    own = np.insert(np.array([*apart, *beside, (4, 0), (4, 4)], float), 2, 0.0, axis=1)
     triangles = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7), (5, 8, 9), (5, 9, 6)]
-    sheets = CarriedSheets(
-        np.column_stack((own, np.zeros(len(own)))),
-        np.array(triangles, np.int32),
-        np.repeat(part, 2),
-        np.ones((6, 3)),
-    )
+    triangles = np.array(triangles, np.int32)
+    sheets = CarriedSheets(own, triangles, np.repeat(part, 2), np.ones((6, 3)))
     found = few_faces._without_crossings(faces, sheets)
-    assert found.part.tolist() == [0, 1, 1, 2, 2] and np.diff(found.offsets).tolist() == [
-        4,
-        *[3] * 4,
-    ]
+    assert found.part.tolist() == [0, 1, 1, 2, 2]
+    assert np.diff(found.offsets).tolist() == [4, 3, 3, 3, 3]
     np.testing.assert_array_equal(found.ring(0), places[:4])
     np.testing.assert_array_equal(found.ring(3), sheets.vertices[[5, 8, 9]])
     simple = SheetFaces(places, offsets[:3], faces.corners[:8], part[:2])
@@ -446,10 +429,9 @@ def test_a_polygon_that_crosses_itself_is_no_face():
 @pytest.mark.parametrize("quads, least", ((False, "0.00076"), (True, "0.0005")))
 def test_a_size_that_makes_too_many_faces_is_refused(quads, least):
     """A plate of 1 by 0.5; the size is far too small to be squared."""
-    mesh = block(1.0, 0.5, 0.02)
     words = f"at most 2,000,000 faces, found 1e-200, which makes about inf; choose {least}"
     with pytest.raises(InvalidInputError, match=words):
-        sheets_of(mesh, Settings(samples=1000), size=1e-200, quads=quads)
+        sheets_of(block(1.0, 0.5, 0.02), Settings(samples=1000), size=1e-200, quads=quads)
 
 
 def star(tips, thickness):
@@ -458,14 +440,9 @@ def star(tips, thickness):
     rim = np.column_stack((np.cos(angle), np.sin(angle))) * np.tile((0.5, 0.25), tips)[:, None]
     top, bottom = (np.column_stack((rim, np.full(len(rim), z))) for z in (thickness, 0.0))
     points = np.concatenate((bottom, top, [(0, 0, 0), (0, 0, thickness)]))
-    i, low, high = np.arange(len(rim)), len(points) - 2, len(points) - 1
-    j, up = np.roll(i, -1), len(rim)
-    faces = (
-        (j, i, 0 * i + low),
-        (i + up, j + up, 0 * i + high),
-        (i, j, j + up),
-        (i, j + up, i + up),
-    )
+    i, up = np.arange(len(rim)), len(rim)
+    j, low = np.roll(i, -1), 0 * i + 2 * up
+    faces = (j, i, low), (i + up, j + up, low + 1), (i, j, j + up), (i, j + up, i + up)
     return points, np.concatenate([np.column_stack(each) for each in faces])
 
 
@@ -477,8 +454,7 @@ def test_the_middle_of_a_pipe_is_round(around, low, high, wall, length):
     found = sheets_of(pipe(around, low, high, wall, length), Settings(samples=3000))
     slant = np.hypot(high - low, length)
     polygon = around * np.sin(np.pi / around)  # half of the circumference of radius 1
-    area = polygon * (low + high - wall) * slant
-    assert areas(found).sum() == pytest.approx(area, rel=0.015)
+    assert area(found) == pytest.approx(polygon * (low + high - wall) * slant, rel=0.015)
     across = wall * length / slant
     assert np.average(found.thickness) == pytest.approx(across, rel=0.03)
     assert 0.95 < found.share < 1.05 and np.ptp(found.vertices[:, 2]) > 0.95 * length
@@ -503,7 +479,7 @@ def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():
     """They were four times as many, as close as the whole axis needs, and the sheet took 20 s."""
     found = sheets_of(pipe(24, 5.0, 5.0, 0.8, 60.0), Settings())
     assert len(found.chosen.samples.points) < 20_000 and not found.warnings
-    assert areas(found).sum() == pytest.approx(2 * np.pi * 4.6 * 60, rel=0.005)
+    assert area(found) == pytest.approx(2 * np.pi * 4.6 * 60, rel=0.005)
     np.testing.assert_allclose(found.thickness, 0.8, rtol=0.002)
 
 
@@ -517,11 +493,6 @@ def test_the_sheets_of_a_pot_stay_in_it(around, low, wall):
     outside[reference.winding_number(found.vertices, *mesh) > 0.5] = 0.0
     assert found.sheets == 2 and outside.max() < 0.03 * wall
     assert found.share == pytest.approx(1.0, abs=0.02)
-
-
-def test_a_pipe_as_thick_as_it_is_long_has_no_thin_wall():
-    with pytest.raises(InvalidInputError, match="found none"):
-        sheets_of(pipe(32, 1.0, 1.0, 0.5, 0.5), Settings(samples=2000))
 
 
 def test_a_sheet_without_thickness_is_none():
@@ -565,10 +536,8 @@ def test_a_sheet_that_touches_itself_is_divided():
     points, found, of = even_triangles(np.array(places + square, float), triangles, part, 0.5)
     _, uses = topology.edges(found[of == 0])
     assert (uses == 3).sum() == 8 and (points[found[of == 1]].min(axis=(0, 1)) == (9, 0, 0)).all()
-    turns = np.cross(
-        points[found[:, 1]] - points[found[:, 0]], points[found[:, 2]] - points[found[:, 0]]
-    )
-    assert turns[of == 1].sum(axis=0) == pytest.approx((0, 0, 32)) and turns[of == 1, 2].min() > 0
+    turns = topology.vector_areas(points, found[of == 1])
+    assert turns.sum(axis=0) == pytest.approx((0, 0, 16)) and turns[:, 2].min() > 0
 
 
 def test_divided_triangles_still_share_edges():
@@ -580,11 +549,9 @@ def test_divided_triangles_still_share_edges():
     _, uses = topology.edges(pieces)
     along = np.linalg.norm(points[2] - points[0])
     assert (uses == 3).sum() >= along / 0.3, "all three sheets have the edges of their seam"
-    for row, triangle in enumerate(triangles):
-        a, b, c = points[triangle]
-        p, q, r = places[pieces[of == row]].transpose(1, 0, 2)
-        whole = np.cross(b - a, c - a)
-        np.testing.assert_allclose(np.cross(q - p, r - p).sum(axis=0), whole, atol=1e-12)
+    for row, whole in enumerate(topology.vector_areas(points, triangles)):
+        found = topology.vector_areas(places, pieces[of == row]).sum(axis=0)
+        np.testing.assert_allclose(found, whole, atol=0.5e-12)
 
 
 def cantilever(tmp_path):
@@ -617,7 +584,7 @@ def test_calculix_bends_a_plate_as_the_textbook_says(tmp_path, words, kind):
     text = (tmp_path / "plate.inp").read_text().replace("210000., 0.3", "210000., 0.0")
     assert f"TYPE={kind}," in text and text.count("TYPE=") == 1
     rows = text[text.index("*NODE, NSET=NALL\n") : text.index("*ELEMENT")].splitlines()[1:]
-    nodes = np.array([[float(word) for word in row.split(",")] for row in rows])
+    nodes = np.loadtxt(rows, delimiter=",")
     fixed = nodes[nodes[:, 1] < -49.999, 0].astype(int)
     end = nodes[nodes[:, 1] > 49.999]
     end = end[np.argsort(end[:, 2])]

@@ -13,7 +13,7 @@ from medial_axis.core.robot.primitive_meshes import ball_mesh, box_mesh, cylinde
 from medial_axis.core.robot.robot_file import read_robot
 from scipy.spatial.transform import Rotation
 from support.distance import points_on_triangles
-from support.meshes import torus, write_off
+from support.meshes import torus, write_obj, write_off
 from support.robot_shapes import away
 
 ARM = """<mujoco model="Grün &amp; Söhne"><compiler meshdir="meshes" autolimits="true"/>
@@ -44,10 +44,7 @@ ARM = """<mujoco model="Grün &amp; Söhne"><compiler meshdir="meshes" autolimit
 @pytest.fixture
 def arm(tmp_path):
     (tmp_path / "meshes").mkdir()
-    points, triangles = torus(1.0, 0.4, 24, 12)
-    rows = [("v", points), ("f", triangles + 1)]
-    text = "".join(f"{word} {x} {y} {z}\n" for word, row in rows for x, y, z in row.tolist())
-    (tmp_path / "meshes" / "ring.obj").write_text(text)
+    write_obj(tmp_path / "meshes" / "ring.obj", torus(1.0, 0.4, 24, 12))
     (tmp_path / "arm.xml").write_text(ARM, encoding="utf-8")
     return tmp_path / "arm.xml"
 

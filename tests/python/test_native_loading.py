@@ -8,6 +8,8 @@ import textwrap
 from pathlib import Path
 
 import pytest
+from medial_axis import __version__
+from medial_axis.core.machine import native
 from support.package import PACKAGE
 
 needs_memory_files = pytest.mark.skipif(
@@ -42,48 +44,29 @@ def play(text):
 
 
 @pytest.fixture
-def file(medial):
+def file():
     """The compiled module that this Python loads."""
-    from medial_axis.core.machine import native
-
     return str(native.file())
 
 
-@needs_memory_files
-def test_plain_python_loads_the_file(file):
-    assert play("native.load(); print(*where())") == [file]
+# Some systems forbid executing files in memory; here the loader finds an empty file instead.
+EMPTY = "os.memfd_create = lambda name: os.open(os.devnull, os.O_RDWR)"
 
 
 @needs_memory_files
-def test_a_copy_is_loaded_where_it_is_asked_for(file):
-    said = play("native.load_a_copy = True; native.load(); print(*where())")
-    assert said == ["memfd:_medial"]
-
-
-@needs_memory_files
-def test_file_is_loaded_where_the_system_refuses_files_in_memory(file):
-    said = play(
-        """
-        os.memfd_create, native.load_a_copy = refused, True
-        native.load()
-        print(*where())
-        """
-    )
-    assert said == [file]
-
-
-@needs_memory_files
-def test_file_is_loaded_where_the_system_refuses_libraries_in_memory(file):
-    """Some systems forbid executing such files; here the loader finds an empty file instead."""
-    said = play(
-        """
-        os.memfd_create = lambda name: os.open(os.devnull, os.O_RDWR)
-        native.load_a_copy = True
-        native.load()
-        print(*where())
-        """
-    )
-    assert said == [file]
+@pytest.mark.parametrize(
+    "before, copied",
+    [
+        ("pass", False),
+        ("native.load_a_copy = True", True),
+        ("os.memfd_create, native.load_a_copy = refused, True", False),
+        (f"{EMPTY}; native.load_a_copy = True", False),
+    ],
+    ids=["plain", "a copy", "no files in memory", "no libraries in memory"],
+)
+def test_a_copy_in_memory_is_loaded_where_it_is_asked_for_and_can_be(file, before, copied):
+    said = play(f"{before}; native.load(); print(*where())")
+    assert said == (["memfd:_medial"] if copied else [file])
 
 
 def test_system_without_files_in_memory_loads_the_file(file):
@@ -114,7 +97,7 @@ def test_message_of_a_broken_file_names_the_file(file, tmp_path, copy):
         """
     )
     assert " ".join(said).startswith("Expected a compiled module for")
-    assert str(tmp_path / Path(file).name) in " ".join(said) and "/proc/self" not in said
+    assert str(tmp_path / Path(file).name) in " ".join(said) and "/proc/self" not in " ".join(said)
 
 
 @pytest.mark.parametrize("taken", [True, False])
@@ -122,14 +105,11 @@ def test_module_of_a_wheel_is_taken_where_there_is_none_if_it_has_the_same_versi
     file, tmp_path, taken
 ):
     """Blender installs an extension's wheels into a folder of all extensions, where older ones may lie."""
-    from medial_axis import __version__
-
     version = __version__ if taken else "0.0.1"
     info = tmp_path / f"medial_axis-{version}.dist-info"
     info.mkdir()
-    (info / "METADATA").write_text(
-        f"Metadata-Version: 2.1\nName: medial-axis\nVersion: {version}\n"
-    )
+    head = "Metadata-Version: 2.1\nName: medial-axis\n"
+    (info / "METADATA").write_text(f"{head}Version: {version}\n")
     library = tmp_path / "medial_axis" / "lib"
     library.mkdir(parents=True)
     module = library / Path(file).name
@@ -146,7 +126,5 @@ def test_module_of_a_wheel_is_taken_where_there_is_none_if_it_has_the_same_versi
             print(error)
         """
     )
-    if taken:
-        assert said == [str(module)]
-    else:
-        assert " ".join(said).startswith("Expected the compiled module for")
+    expected = str(module) if taken else "Expected the compiled module for"
+    assert " ".join(said).startswith(expected)

@@ -51,9 +51,9 @@ def test_links_to_pages_that_do_not_come_along_become_text():
 
 
 def test_places_that_the_panels_open_are_there(folder):
-    source = (paths.ADDON / "ui" / "base" / "manual.py").read_text(encoding="utf-8")
-    guide = (paths.ADDON / "ui" / "settings" / "guide.py").read_text(encoding="utf-8")
-    places = set(re.findall(r'"(\w+\.html(?:#[\w-]+)?)"', source + guide))
+    sources = [paths.ADDON / "ui" / name for name in ("base/manual.py", "settings/guide.py")]
+    text = "".join(path.read_text(encoding="utf-8") for path in sources)
+    places = set(re.findall(r'"(\w+\.html(?:#[\w-]+)?)"', text))
     assert len(places) > 8
     for place in places:
         name, _, anchor = place.partition("#")

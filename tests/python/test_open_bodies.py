@@ -17,10 +17,11 @@ from medial_axis.core.shape.outward_faces import outward_shape
 from medial_axis.core.shape.shape import OF_SHEETS, REPEATED, Shape
 from medial_axis.core.thickness.thicken import thicken
 from support import meshes
+from support.meshes import shape_of
 from support.thick_meshes import block
 
 BOX = block(1.0, 1.0, 1.0)
-OPEN = (BOX[0], BOX[1][1:])
+OPEN, SMALL = (BOX[0], BOX[1][1:]), block(0.8, 0.8, 0.8, (0.5, 0.1, 0.1))
 
 
 def moved(mesh, *way):
@@ -40,23 +41,16 @@ def loose(mesh):
 def wavy(count=12, size=1.0):
     x, y = np.meshgrid(np.linspace(0, 1, count), np.linspace(0, 1, count))
     points = np.stack((x, y, 0.1 * np.sin(9 * x) * np.cos(7 * y)), -1).reshape(-1, 3)
-    i = np.arange(count * count).reshape(count, count)
-    a, b, c, d = i[:-1, :-1].ravel(), i[:-1, 1:].ravel(), i[1:, 1:].ravel(), i[1:, :-1].ravel()
-    return size * points, np.concatenate((np.c_[a, b, c], np.c_[a, c, d]))
+    return size * points, meshes.lattice(np.arange(count * count).reshape(count, count).T)
 
 
 def boxes(count, seed):
     """Boxes, most of which overlap; the fourth lacks a triangle."""
     random = np.random.default_rng(seed)
-    found = [
-        moved(block(*random.uniform(0.3, 1, 3)), *random.uniform(0, 1, 3)) for _ in range(count)
-    ]
+    size = (0.3, 1, 3)
+    found = [moved(block(*random.uniform(*size)), *random.uniform(0, 1, 3)) for _ in range(count)]
     found[3] = (found[3][0], found[3][1][1:])
     return meshes.join(*found)
-
-
-def shape_of(mesh):
-    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
 
 
 def computed(mesh):
@@ -64,19 +58,15 @@ def computed(mesh):
 
 
 ONE = {
-    "overlapping boxes": meshes.join(OPEN, moved(block(0.8, 0.8, 0.8), 0.5, 0.1, 0.1)),
+    "overlapping boxes": meshes.join(OPEN, SMALL),
     "an assembly": boxes(20, 0),
     "both sides of each face": twice(OPEN),
     "both sides with vertices of their own": loose(twice(OPEN)),
     "every face twice": twice(OPEN, (0, 1, 2)),
     "every face four times": twice(twice(OPEN)),
     "a wavy sheet beside a box": meshes.join(BOX, moved(wavy(size=0.5), 2, 0, 0)),
-    "a large sheet beside overlapping boxes": meshes.join(
-        BOX, moved(block(0.8, 0.8, 0.8), 0.5, 0.1, 0.1), moved(wavy(), 3, 0, 0)
-    ),
-    "a triangle in a box": meshes.join(
-        BOX, (0.3 * np.eye(3) + (0.1, 0.2, 0.3), np.array([[0, 1, 2]]))
-    ),
+    "a large sheet beside overlapping boxes": meshes.join(BOX, SMALL, moved(wavy(), 3, 0, 0)),
+    "a triangle in a box": meshes.join(BOX, (0.3 * np.eye(3) + (0.1, 0.2, 0.3), [[0, 1, 2]])),
 }
 
 
@@ -94,10 +84,8 @@ def test_an_open_body_of_doubles_stays_beside_a_closed_one():
 
 
 def test_a_wall_between_two_rooms_is_no_body_of_doubles():
-    room, other = BOX, moved(BOX, 1, 0, 0)
-    read = outward_shape(shape_of(meshes.join(room, other)))
-    repeated = read.reading == REPEATED
-    assert repeated.sum() in (0, 4) and (read.volume == pytest.approx(2.0))
+    read = outward_shape(shape_of(meshes.join(BOX, moved(BOX, 1, 0, 0))))
+    assert (read.reading == REPEATED).sum() in (0, 4) and read.volume == pytest.approx(2.0)
 
 
 def test_sheets_alone_are_refused():
@@ -107,14 +95,11 @@ def test_sheets_alone_are_refused():
 
 @pytest.mark.parametrize("sheet", [wavy(), (wavy()[0] * (1, 1, 0.3), wavy()[1])])
 def test_results_of_solids_advise_thickness_for_a_sheet(sheet):
-    for compute in (
-        lambda shape: thicken(shape, Settings(), ThickenSettings(limit=0.1)),
-        lambda shape: hollow(shape, HollowSettings(wall=0.1)),
-    ):
-        with pytest.raises(
-            DegenerateInputError, match=r"give it thickness \(a Solidify modifier\)$"
-        ):
-            compute(shape_of(sheet))
+    advice = r"give it thickness \(a Solidify modifier\)$"
+    with pytest.raises(DegenerateInputError, match=advice):
+        thicken(shape_of(sheet), Settings(), ThickenSettings(limit=0.1))
+    with pytest.raises(DegenerateInputError, match=advice):
+        hollow(shape_of(sheet), HollowSettings(wall=0.1))
 
 
 def test_faces_without_corners_are_one_sentence():
@@ -129,8 +114,6 @@ def test_faces_of_which_none_is_left_are_one_sentence(sampling):
     points, triangles = BOX
     left_out = np.full(len(triangles), OF_SHEETS, np.uint8)
     shape = Shape(points, np.repeat(triangles[:, :1], 3, axis=1), reading=left_out)
-    settings = Settings(sampling=sampling, samples=100)
-    with pytest.raises(
-        DegenerateInputError, match="that repeat others, are sheets or have no three"
-    ):
-        compute_axis(shape, settings)
+    said = "that repeat others, are sheets or have no three"
+    with pytest.raises(DegenerateInputError, match=said):
+        compute_axis(shape, Settings(sampling=sampling, samples=100))

@@ -5,9 +5,10 @@ import re
 
 import numpy as np
 import pytest
-from medial_axis.core.axis.compute import compute
+from medial_axis.core.axis.compute import compute, compute_axis
 from medial_axis.core.axis.medial_axis import ON_CREASE
 from medial_axis.core.errors import DegenerateInputError
+from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom, SkeletonSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
@@ -16,21 +17,11 @@ from support import meshes, reference
 pytestmark = pytest.mark.oracle
 
 BALL = meshes.icosphere(4)
-UP = BALL[0][BALL[1]].mean(axis=1)[:, 2]
-BOWL = BALL[0], np.ascontiguousarray(BALL[1][UP < 0.0])
-BOX = meshes.box((8, 8, 8), (1.0, 1.0, 1.0))
-TOP = BOX[0][BOX[1]].mean(axis=1)[:, 2]
-OPEN_BOX = BOX[0], np.ascontiguousarray(BOX[1][TOP.max() - 1e-9 > TOP])
-
-
-def part(ball, below):
-    return ball[0], np.ascontiguousarray(ball[1][below > UP])
-
-
+BOWL = meshes.below(BALL, 0.0)
+OPEN_BOX = meshes.below(meshes.box((8, 8, 8), (1.0, 1.0, 1.0)), 1.0 - 1e-9)
+OPENED = meshes.below(BALL, 0.8)
 # Like Suzanne's eyes: an open ball that looks out of the opening of another one, its own opening inside.
-EYE = meshes.join(
-    part(BALL, 0.8), (0.5 * BALL[0] * (1, 1, -1) + (0, 0, 0.65), part(BALL, 0.8)[1][:, ::-1].copy())
-)
+EYE = meshes.join(OPENED, meshes.flip((0.5 * BALL[0] * (1, 1, -1) + (0, 0, 0.65), OPENED[1])))
 
 
 def sampled(medial, mesh, count=4000):
@@ -38,7 +29,7 @@ def sampled(medial, mesh, count=4000):
     return found, medial.closing_samples(found.points, found.normals, found.radius, *mesh)
 
 
-@pytest.mark.parametrize("mesh, lid", [(BOWL, 0.0), (OPEN_BOX, TOP.max())], ids=["bowl", "box"])
+@pytest.mark.parametrize("mesh, lid", [(BOWL, 0.0), (OPEN_BOX, 1.0)], ids=["bowl", "box"])
 def test_a_plane_opening_gets_a_plane_lid(medial, mesh, lid):
     """The solid angle of a bowl, and of a box without lid, is half of all from each place of the lid."""
     found, (points, normals, _) = sampled(medial, mesh)
@@ -103,17 +94,12 @@ def test_closing_checks_its_input(medial, arguments, word):
         medial.closing_samples(*arguments)
 
 
-# ---- the whole way
-
-
 def surface(mesh, count=4000, **settings):
     return compute(*mesh, Settings(sampling=SamplingMode.SURFACE, samples=count, **settings))
 
 
 @pytest.mark.parametrize(
-    "mesh",
-    [BOWL, OPEN_BOX, pytest.param(EYE, marks=pytest.mark.slow)],
-    ids=["bowl", "box", "eye"],
+    "mesh", [BOWL, OPEN_BOX, pytest.param(EYE, marks=pytest.mark.slow)], ids=["bowl", "box", "eye"]
 )
 def test_an_open_solid_is_one_piece_without_holes(medial, mesh):
     found = surface(mesh)
@@ -181,9 +167,6 @@ def test_chosen_normals_are_kept(medial):
     ],
 )
 def test_tunnels_of_real_meshes(data_file, name, most):
-    from medial_axis.core.axis.compute import compute_axis
-    from medial_axis.core.files.read_shape import read_shape
-
     found = compute_axis(read_shape(data_file(name))[0], Settings())
     pieces, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
     assert pieces == 1 and cavities == 0 and tunnels <= most
@@ -197,10 +180,8 @@ def vessel(slope, bend, flare):
     up = 16 * along[:, None] + slope * flat[:, :, 0] * (2 * along[:, None] - 1)
     turn_ = bend * along[:, None] + 0 * up
     at = np.stack((flat[:, :, 0] + 8 * turn_**2, flat[:, :, 1], up), -1).reshape(-1, 3)
-    i = np.arange(at.shape[0]).reshape(50, 24)
-    a, b, c, d = i[:-1], np.roll(i[:-1], -1, 1), np.roll(i[1:], -1, 1), i[1:]
-    faces = np.concatenate((np.stack((a, b, c), -1), np.stack((a, c, d), -1))).reshape(-1, 3)
-    return at, faces.astype(np.int32)
+    ids = np.pad(np.arange(len(at)).reshape(50, 24), ((0, 0), (0, 1)), "wrap")
+    return at, meshes.lattice(ids.T)
 
 
 @pytest.mark.parametrize(

@@ -58,7 +58,5 @@ def test_the_thick_parts_beside_a_middle_surface_replace_nothing(tmp_path):
     thick = tmp_path / "part_thick.stl"
     thick.write_text("an input")
     with pytest.raises(InvalidInputError, match="replaces no input"):
-        Files(
-            [str(thick)], MiddleSurface(Settings(), MidSurfaceSettings(keep_thick=True)).beside
-        ).claim(tmp_path / "part.inp")
+        Files([str(thick)], SHEETS_AND_REST.beside).claim(tmp_path / "part.inp")
     Files([str(thick)]).claim(tmp_path / "part.inp")

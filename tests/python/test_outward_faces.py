@@ -11,15 +11,13 @@ from medial_axis.core.shape.outward_faces import outward_shape, reading_counts
 from medial_axis.core.shape.shape import Shape
 from support import meshes, messy
 from support.same_axis import same_axis
+from support.thick_meshes import block
 
 TURNED, REPEATED, WITHOUT_CORNERS = 1, 2, 3
 
 
 def cube(corner=(0.0, 0.0, 0.0), size=1.0):
-    ends = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    triangles = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
-    return np.asarray(corner) + size * ends, np.array(triangles, np.int32)
+    return block(size, size, size, np.add(corner, size / 2))
 
 
 def grid(count):
@@ -28,14 +26,16 @@ def grid(count):
 
 
 def inward(mesh):
-    return mesh[0], np.ascontiguousarray(mesh[1][:, [0, 2, 1]])
+    return with_inward(mesh, np.ones(len(mesh[1]), bool))
+
+
+def with_inward(mesh, rows):
+    return mesh[0], np.where(rows[:, None], mesh[1][:, [0, 2, 1]], mesh[1])
 
 
 def flipped(mesh, share, seed=0):
     rows = np.random.default_rng(seed).random(len(mesh[1])) < share
-    triangles = mesh[1].copy()
-    triangles[rows] = triangles[rows][:, [0, 2, 1]]
-    return (mesh[0], triangles), rows
+    return with_inward(mesh, rows), rows
 
 
 SOLIDS = {
@@ -72,31 +72,29 @@ def test_random_flips(medial, name, share):
 
 @pytest.mark.parametrize("part", range(3))
 def test_a_part_that_looks_inward(medial, part):
-    mesh, rows = SOLIDS["parts"], np.zeros(36, bool)
-    rows[12 * part : 12 * part + 12] = True
-    turned = mesh[1].copy()
-    turned[rows] = turned[rows][:, [0, 2, 1]]
-    triangles, reading, patches, unseen = medial.outward_faces(mesh[0], turned)
+    mesh, rows = SOLIDS["parts"], np.arange(36) // 12 == part
+    triangles, reading, patches, unseen = medial.outward_faces(*with_inward(mesh, rows))
     assert np.array_equal(triangles, mesh[1]) and np.array_equal(reading == TURNED, rows)
     assert (patches, unseen) == (3, 0)
 
 
 @pytest.mark.parametrize("again", [[0, 1, 2], [0, 2, 1], [2, 0, 1]])
 def test_doubled_faces(medial, again):
-    points, triangles = cube()
-    both = np.concatenate((triangles, triangles[:, again]))
-    read, reading, _, _ = medial.outward_faces(points, both)
-    assert np.array_equal(read[:12], triangles)
-    assert (reading[:12] == 0).all() and (reading[12:] == REPEATED).all()
-    assert (read[12:] == read[12:, :1]).all()
+    assert_first_are_kept(medial, cube(), again)
 
 
 def test_a_sheet_of_doubled_faces_keeps_one_of_each(medial):
     """To leave out both would leave no edge open, and no face."""
-    points, triangles = grid(5)
-    read, reading, _, _ = medial.outward_faces(points, np.concatenate((triangles, triangles)))
-    assert np.array_equal(read[:32], triangles)
-    assert (reading[:32] == 0).all() and (reading[32:] == REPEATED).all()
+    assert_first_are_kept(medial, grid(5))
+
+
+def assert_first_are_kept(medial, mesh, again=(0, 1, 2)):
+    points, triangles = mesh
+    count, both = len(triangles), np.concatenate((triangles, triangles[:, again]))
+    read, reading, _, _ = medial.outward_faces(points, both)
+    assert np.array_equal(read[:count], triangles)
+    assert (reading[:count] == 0).all() and (reading[count:] == REPEATED).all()
+    assert (read[count:] == read[count:, :1]).all()
 
 
 def test_a_wall_between_two_rooms_drawn_from_both_sides(medial):
@@ -149,23 +147,20 @@ def test_bad_faces_are_refused(medial):
 
 
 def test_nothing_of_nothing(medial):
-    triangles, reading, patches, _ = medial.outward_faces(
-        np.zeros((0, 3)), np.zeros((0, 3), np.int32)
-    )
+    nothing = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+    triangles, reading, patches, _ = medial.outward_faces(*nothing)
     assert (len(triangles), len(reading), patches) == (0, 0, 0)
 
 
 # --- in the product
 
 
-def compute(mesh, **options):
-    settings = Settings(**{"sampling": SamplingMode.VERTICES, **options})
-    return compute_axis(Shape(*mesh), settings)
+def compute(mesh, sampling=SamplingMode.VERTICES, **options):
+    return compute_axis(Shape(*mesh), Settings(sampling=sampling, **options))
 
 
 def a_part_inward(mesh):
-    part, _, _ = native.load().mesh_parts(*mesh)
-    return mesh[0], np.where((part == 0)[:, None], mesh[1][:, [0, 2, 1]], mesh[1])
+    return with_inward(mesh, native.load().mesh_parts(*mesh)[0] == 0)
 
 
 def some_doubled(mesh):
@@ -213,12 +208,8 @@ def test_the_axis_is_that_of_the_clean_mesh(data_file, name, damage):
 def test_a_shape_says_how_it_was_read():
     shape = Shape(*inward(cube()))
     read = outward_shape(shape)
-    assert reading_counts(read) == {
-        "turned": 12,
-        "repeated": 0,
-        "without_corners": 0,
-        "of_sheets": 0,
-    }
+    none = dict.fromkeys(("repeated", "without_corners", "of_sheets"), 0)
+    assert reading_counts(read) == {"turned": 12, **none}
     assert shape.reading is None and outward_shape(read) is read
 
 

@@ -17,20 +17,25 @@ from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.shape.shape import Shape
 from support import meshes, thin_solids
+from support.measure import polygons
 from support.readers import area_of
-from support.thick_meshes import shell
+from support.thick_meshes import pipe, shell
+
+PLATES = thin_solids.plate(0.01), thin_solids.plate(1e-4), thin_solids.profile_t(0.002)
 
 
-def computed(solid, **options):
-    return library.compute(*thin_solids.turned(solid.mesh), side="inner", pairs=True, **options)
+def inside(mesh, **options):
+    return library.compute(*thin_solids.turned(mesh), side="inner", **options)
+
+
+def in_pairs(solid):
+    return inside(solid.mesh, pairs=True, sampling="surface", samples=4000)
 
 
 @pytest.mark.parametrize(
     "solid",
     [
-        thin_solids.plate(0.01),
-        thin_solids.plate(1e-4),
-        thin_solids.profile_t(0.002),
+        *PLATES,
         thin_solids.profile_l(0.002),
         thin_solids.cross(0.004),
         thin_solids.stairs(0.004),
@@ -38,9 +43,8 @@ def computed(solid, **options):
     ids=["plate", "foil", "T", "L", "cross", "stairs"],
 )
 def test_flat_thin_walls_have_whole_sheets_with_few_samples(solid):
-    found = computed(solid, sampling="surface", samples=4000)
-    level = found.axis.level
-    assert tuple(level.betti) == solid.betti
+    found = in_pairs(solid)
+    assert tuple(found.axis.level.betti) == solid.betti
     assert len(found.chosen.samples.points) < 4200
     assert not any("walls are closer" in warning for warning in found.warnings)
 
@@ -57,7 +61,7 @@ def test_flat_thin_walls_have_whole_sheets_with_few_samples(solid):
 )
 def test_no_sheet_crosses_a_narrow_gap(solid):
     """The samples are 0.03 apart."""
-    found = computed(solid, sampling="surface", samples=4000)
+    found = in_pairs(solid)
     assert tuple(found.axis.level.betti) == solid.betti
     assert found.chosen.samples.buried == 0
 
@@ -69,19 +73,17 @@ def test_small_faces_at_a_sharp_edge_and_narrow_slots_are_not_buried():
     for mesh in ((tip, faces), thin_solids.slot(2e-5).mesh):
         shape = Shape(*thin_solids.turned(mesh))
         found = native.load().sample_surface(shape.points, shape.triangles, count=4000)
-        bare, buried = find_bare(shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03)
+        given = shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03
+        bare, buried = find_bare(*given)
         assert buried == 0 and bare.all() == (mesh[0] is tip)
-        assert find_bare(
-            shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03, gaps=True
-        )[0].all()
+        assert find_bare(*given, gaps=True)[0].all()
 
 
 def test_kept_vertices_bound_the_spacing_however_small_the_count_is():
     """Else every vertex is a neighbour of all others, and thousands of them take minutes."""
     points, triangles = shell(1.0, 0.9)
-    kept = native.load().sample_surface(
-        points, triangles, count=100, keep_vertices=True, pairs=True
-    )
+    options = {"count": 100, "keep_vertices": True, "pairs": True}
+    kept = native.load().sample_surface(points, triangles, **options)
     assert len(points) <= len(kept.points) < 2.2 * len(points)
     spacing = np.sqrt(1.1547 * kept.area / len(points))
     assert kept.radius.max() < 2 * spacing
@@ -100,22 +102,20 @@ def test_every_share_of_the_rest_leaves_room_for_the_next_one():
 def test_crisp_places_do_not_fold_the_rim_of_a_foil():
     """The samples are 13 times as far apart as the walls; needles between them once let vertices go far astray."""
     solid = thin_solids.plate(0.001)
-    axis = library.compute(*thin_solids.turned(solid.mesh), side="inner").axis
-    faces = np.split(axis.face_vertices, axis.face_offsets[1:-1])
-    area = area_of(axis.vertices, faces)
+    axis = inside(solid.mesh).axis
+    area = area_of(axis.vertices, polygons(axis))
     assert 0.995 * solid.area < area < 1.01 * (solid.area + solid.into_edges)
 
 
 def test_a_second_pass_follows_curved_walls():
     solid = thin_solids.shell(0.003, subdivisions=4)
-    found = computed(solid, samples=4000)
+    found = inside(solid.mesh, pairs=True, samples=4000)
     assert tuple(found.axis.level.betti) == solid.betti
     assert 4500 < len(found.chosen.samples.points) < 60_000
 
 
 def test_without_the_option_no_sample_has_a_partner():
-    points, triangles = thin_solids.turned(thin_solids.plate(0.05).mesh)
-    found = library.compute(points, triangles, side="inner", sampling="surface", samples=2000)
+    found = inside(thin_solids.plate(0.05).mesh, sampling="surface", samples=2000)
     assert found.chosen.samples.partners is None
 
 
@@ -146,12 +146,8 @@ def test_pairs_miss_walls_only_where_these_bend_away():
 def plate_with_a_hole(width, thickness):
     """A plate of 1 by 1 with a square hole."""
     low, high = 0.5 - width / 2, 0.5 + width / 2
-    bars = [
-        ((0, 0), (low, 1)),
-        ((high, 0), (1, 1)),
-        ((low, 0), (high, low)),
-        ((low, high), (high, 1)),
-    ]
+    bars = [((0, 0), (low, 1)), ((high, 0), (1, 1))]
+    bars += [((low, 0), (high, low)), ((low, high), (high, 1))]
     boxes = [((*a, 0.0), (*b, thickness)) for a, b in bars]
     return thin_solids.ThinSolid(thin_solids.union(*boxes), (1, 1, 0), 1.0)
 
@@ -159,16 +155,14 @@ def plate_with_a_hole(width, thickness):
 @pytest.mark.parametrize(
     "solid",
     [
-        thin_solids.plate(0.01),
-        thin_solids.plate(1e-4),
-        thin_solids.profile_t(0.002),
+        *PLATES,
         thin_solids.shell(0.01),
         plate_with_a_hole(0.006, 0.005),
     ],
     ids=["plate", "foil", "T", "shell", "hole"],
 )
 def test_automatic_finds_thin_walls_and_small_holes(solid):
-    found = library.compute(*thin_solids.turned(solid.mesh), side="inner")
+    found = inside(solid.mesh)
     assert found.axis.level.betti == solid.betti
     assert "samples in pairs" in found.chosen.reason and found.settings.pairs
     assert not found.warnings and found.topology.endswith("as the solid")
@@ -177,10 +171,8 @@ def test_automatic_finds_thin_walls_and_small_holes(solid):
 @pytest.mark.parametrize(
     "differences, passes",
     [
-        (
-            [8, 3, 46, 19, 5, 0],
-            6,
-        ),  # the spacings of both sides of a wall became small one after the other
+        # The spacings of both sides of a wall became small one after the other.
+        ([8, 3, 46, 19, 5, 0], 6),
         ([8, 4, 17, 36, 16, 2, 0], 7),
         ([8, 9, 9, 9, 9, 0], 1),  # three in a row are no better
         ([8, 5, 200, 0], 2),
@@ -229,32 +221,30 @@ def test_the_second_pass_in_pairs_is_denser_where_it_has_to_be(
     assert len(sites) == len(apart)
 
 
-def pipe(sides, wall):
-    """A pipe of radius 1 with flat ends."""
-    return meshes.revolved([(1.0, 0.0), (1.0, 12.0), (1.0 - wall, 12.0), (1.0 - wall, 0.0)], sides)
+def assert_one_loop(sides, wall):
+    """The axis of a pipe of radius 1 with flat ends."""
+    found = library.compute(*pipe(sides, 1.0, 1.0, wall, 12.0), side="inner")
+    assert tuple(found.axis.level.betti) == (1, 1, 0) and not found.warnings
+    assert len(found.chosen.samples.points) < 20_000
 
 
 @pytest.mark.parametrize("sides, wall", [(13, 0.05), (24, 0.01)])
 def test_a_thin_tube_of_few_flat_sides_takes_one_pass_in_pairs(sides, wall):
     """Its smooth surface leaves its walls, and edges of its flat faces that had no samples made loops."""
-    found = library.compute(*pipe(sides, wall), side="inner")
-    assert tuple(found.axis.level.betti) == (1, 1, 0) and not found.warnings
-    assert len(found.chosen.samples.points) < 20_000
+    assert_one_loop(sides, wall)
 
 
 @pytest.mark.parametrize("sides, wall", [(14, 0.05), (16, 0.05), (16, 0.08)])
 def test_pairs_do_not_cross_at_edges_that_are_rounded(sides, wall):
     """Places beside an edge have their partners beyond the opposite one: the axis had up to 19 loops."""
-    found = library.compute(*pipe(sides, wall), side="inner")
-    assert tuple(found.axis.level.betti) == (1, 1, 0) and not found.warnings
-    assert len(found.chosen.samples.points) < 20_000
+    assert_one_loop(sides, wall)
 
 
 def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):
-    mesh = thin_solids.turned(thin_solids.union(((0, 0, 0), (1, 2, 0.7))))
-    found = library.compute(*mesh, side="inner")
+    mesh = thin_solids.union(((0, 0, 0), (1, 2, 0.7)))
+    found = inside(mesh)
     monkeypatch.setattr(judge, "compares", lambda *_: False)
-    plain = library.compute(*mesh, side="inner")
+    plain = inside(mesh)
     assert found.chosen.reason == plain.chosen.reason
     for name in ("vertices", "radius", "face_vertices"):
         assert getattr(found.axis, name).tobytes() == getattr(plain.axis, name).tobytes()
@@ -280,11 +270,9 @@ def test_doubts_are_where_samples_are_too_few_whatever_the_threads():
 
 
 def test_the_command_line_says_what_was_done(tmp_path):
-    points, triangles = thin_solids.turned(thin_solids.plate(0.002).mesh)
-    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
-    rows += [f"f {a} {b} {c}" for a, b, c in (triangles + 1).tolist()]
-    (tmp_path / "plate.obj").write_text("\n".join(rows))
-    assert cli.main([str(tmp_path / "plate.obj"), str(tmp_path / "plate.ply")]) == 0
+    mesh = thin_solids.turned(thin_solids.plate(0.002).mesh)
+    source = meshes.write_obj(tmp_path / "plate.obj", mesh)
+    assert cli.main([source, str(tmp_path / "plate.ply")]) == 0
     report = json.loads((tmp_path / "plate.ply.json").read_text())
     assert "the walls are thin: samples in pairs" in report["sampled"]
     assert report["topology"].endswith("as the solid")

@@ -20,6 +20,7 @@ def wedge(degrees):
     turn = np.radians(degrees)
     below = [[0, 0, 0], [1, 0, 0], [np.cos(turn), np.sin(turn), 0]]
     points = np.array(below + [[x, y, 1] for x, y, _ in below], float)
+    # The seeds of the tests below find pockets where the sides are cut this way.
     triangles = [[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]]
     return points, np.array([*triangles, [2, 0, 3], [2, 3, 5]], np.int32)
 
@@ -48,35 +49,30 @@ def parts(study, points, mesh):
     return len(np.unique(connected_components(joined, directed=False)[1][inner]))
 
 
-def betti(medial, mesh, count=2000, **options):
+def analysed(medial, mesh, count=1500, **options):
     found = medial.sample_surface(*mesh, count=count, **options)
-    return tuple(medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0]).hierarchy().betti)
+    return found, medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0])
 
 
 @pytest.mark.parametrize("degrees, seed", [(25, 2), (25, 3), (35, 0), (50, 0)])
 def test_a_wedge_is_one_piece(study, degrees, seed):
     mesh = wedge(degrees)
-    found = study.sample_surface(*mesh, count=1500, seed=seed, mirrored_rows=0)
+    found, analysis = analysed(study, mesh, seed=seed, mirrored_rows=0)
     assert parts(study, found.points, mesh) > 1  # what the samples make of its edge
-    assert betti(study, mesh, 1500, seed=seed, mirrored_rows=0)[0] == 1
+    assert analysis.hierarchy().betti[0] == 1
 
 
 def test_levels_have_the_topology_without_pockets(medial):
-    mesh = wedge(35)
-    found = medial.sample_surface(*mesh, count=1500, mirrored_rows=0)
-    hierarchy = medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0]).hierarchy()
+    hierarchy = analysed(medial, wedge(35), mirrored_rows=0)[1].hierarchy()
     for chosen in ({}, {"spacings": 1.0, "relaxed": True}, {"sheet": np.inf, "limb": np.inf}):
         level = hierarchy.extract(**chosen)
-        assert tuple(level.betti) == (1, 0, 0) and len(level.points) == (
-            chosen.get("limb") is not None
-        )
+        assert tuple(level.betti) == (1, 0, 0) and len(level.points) == ("limb" in chosen)
 
 
 def test_facets_as_published_stay(medial):
     """Every facet with all its Voronoi vertices inside is inner, in a pocket or not."""
     mesh = wedge(35)
-    found = medial.sample_surface(*mesh, count=1500, mirrored_rows=0)
-    analysis = medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0])
+    _, analysis = analysed(medial, mesh, mirrored_rows=0)
     published = analysis.extract(side=medial.Side.INNER)
     assert (reference.winding_number(published.vertices, *mesh) > 0.5).all()
 
@@ -108,9 +104,8 @@ def test_no_body_is_lost(study, body, gap, size):
     hierarchy = study.MedialAnalysis(points, triangles).hierarchy()
     cells, vertices = bodies_seen(study, points, (BALL, other), hierarchy.vertices)
     assert vertices == cells
-    if (
-        gap == 0.5
-    ):  # else cells lead from one to the other, across a gap that the samples do not show
+    # Else cells lead from one to the other, across a gap that the samples do not show.
+    if gap == 0.5:
         assert hierarchy.betti[0] == sum(cells) == 2
 
 
@@ -123,8 +118,7 @@ def tetrahedron(size, x):
 def test_a_body_of_four_samples_is_a_piece(medial):
     points, triangles = meshes.join(BALL, tetrahedron(0.02, 1.05))
     analysis = medial.MedialAnalysis(points, triangles)
-    assert analysis.hierarchy().betti[0] == 2
-    assert analysis.hierarchy(bodies=2).betti[0] == 2
+    assert analysis.hierarchy().betti[0] == analysis.hierarchy(bodies=2).betti[0] == 2
     assert analysis.hierarchy(bodies=1).betti == (1, 0, 0)
     settings = Settings(sampling=SamplingMode.VERTICES)
     assert compute(points, triangles, settings).axis.level.betti == (2, 0, 0)
@@ -148,18 +142,17 @@ def test_parts_that_are_all_small_stay(medial):
     pair = meshes.join(tetrahedron(1.0, 0.0), tetrahedron(1.0, 9.0))
     assert medial.MedialAnalysis(*pair).hierarchy(bodies=1).betti == (2, 0, 0)
     three = meshes.join(BALL, *(tetrahedron(0.02, x) for x in (1.05, 2.0)))
-    assert medial.MedialAnalysis(*three).hierarchy(bodies=1).betti == (1, 0, 0)
-    assert medial.MedialAnalysis(*three).hierarchy(bodies=2).betti == (2, 0, 0)
+    for bodies in (1, 2):
+        assert medial.MedialAnalysis(*three).hierarchy(bodies=bodies).betti == (bodies, 0, 0)
 
 
 @pytest.mark.parametrize("size", [1.0, 0.2, 0.05])
 def test_bodies_that_touch_in_an_edge_are_two(study, size):
     """Samples on the edge belong to both; no way through the solid leads from one to the other."""
     small = size * CUBE[0] + (0.5 + 0.5 * size, 0.5 + 0.5 * size, 0.0), CUBE[1]
-    points, triangles = meshes.join(CUBE, small)
-    found = study.sample_surface(points, triangles, count=1000)
-    hierarchy = study.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
-    cells, vertices = bodies_seen(study, found.points, (CUBE, small), hierarchy.vertices)
+    found, analysis = analysed(study, meshes.join(CUBE, small), 1000)
+    vertices = analysis.hierarchy().vertices
+    cells, vertices = bodies_seen(study, found.points, (CUBE, small), vertices)
     assert vertices == cells == [True, True]
 
 
@@ -171,19 +164,15 @@ def dumbbell(neck):
 
 def test_what_the_samples_can_tell_is_kept_beyond_a_neck_that_they_lose(medial):
     """Two large balls on a neck that few samples show are a part each, or one: none of them is a pocket."""
-    vertices, triangles = dumbbell(0.004)
-    found = medial.sample_surface(vertices, triangles, count=1500)
-    analysis = medial.MedialAnalysis(found.points, triangles, vertices=vertices)
-    places = analysis.hierarchy().extract(limb=0.0).vertices
-    axis = int(np.argmax(np.ptp(vertices, axis=0)))
+    mesh = dumbbell(0.004)
+    places = analysed(medial, mesh)[1].hierarchy().extract(limb=0.0).vertices
+    axis = int(np.argmax(np.ptp(mesh[0], axis=0)))
     assert places[:, axis].min() < -0.5 and places[:, axis].max() > 0.5
 
 
 def test_pockets_at_the_rim_of_an_opening(medial):
     """Half a ball whose lid are samples: as one click makes it."""
-    ball = meshes.icosphere(4)
-    below = ball[0][ball[1]].mean(axis=1)[:, 2] < 0.0
-    bowl = ball[0], np.ascontiguousarray(ball[1][below])
+    bowl = meshes.below(meshes.icosphere(4), 0.0)
     for seed in range(3):
         settings = Settings(sampling=SamplingMode.SURFACE, samples=1500, seed=seed)
         assert compute(*bowl, settings).axis.level.betti == (1, 0, 0)

@@ -6,6 +6,7 @@ import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.settings import Prepare, SamplingMode, Settings, Side, SidesFrom
 from support import inputs, measure, meshes
+from support.measure import jaccard, selected_inner
 from support.pole_labels_reference import Labels
 from support.shapes import SHAPES
 
@@ -16,52 +17,39 @@ def poles(medial, points, **options):
     return medial.MedialAnalysis(points, sides=medial.SidesFrom.POLES, **options)
 
 
-def inner(medial, analysis):
-    chosen = analysis.select(side=medial.Side.INNER)
-    return set(map(tuple, analysis.edges[chosen].tolist()))
-
-
 def exactly_inner(medial, points, shape):
     """The selected facets all of whose vertices lie inside the shape."""
     mesh = medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE).extract()
     return set(map(tuple, mesh.generators[measure.inner_facets(mesh, shape)].tolist()))
 
 
-def jaccard(a, b):
-    return len(a & b) / len(a | b)
-
-
 def flat(medial, points):
     return medial.TightCocone(points).flat.astype(bool)
-
-
-# ---- the rule
 
 
 @pytest.mark.parametrize("name", ["shell", "ellipsoid", "torus", "knot", "box", "slab"])
 @pytest.mark.parametrize("n, seed", [(400, 0), (900, 1)])
 def test_sides_equal_those_of_the_reference(study, name, n, seed):
     points = np.unique(SHAPES[name].sample(n, seed), axis=0)
-    normals = Labels(study, points, flat(study, points)).normals()
+    normals = assert_as_the_reference(study, points)
     assert np.count_nonzero(normals.any(axis=1)) > 0.5 * len(points)
+
+
+def assert_as_the_reference(study, points):
+    normals = Labels(study, points, flat(study, points)).normals()
     expected = study.MedialAnalysis(points, normals=normals, sides=study.SidesFrom.NORMALS)
     assert np.array_equal(poles(study, points).side, expected.side)
+    return normals
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_random_points_equal_the_reference(study, seed):
-    points = np.random.default_rng(seed).normal(size=(60, 3))
-    normals = Labels(study, points, flat(study, points)).normals()
-    expected = study.MedialAnalysis(points, normals=normals, sides=study.SidesFrom.NORMALS)
-    assert np.array_equal(poles(study, points).side, expected.side)
+    assert_as_the_reference(study, np.random.default_rng(seed).normal(size=(60, 3)))
 
 
 def test_poles_that_both_sides_claim_come_last(study):
     """Only this seed notices another order of the poles, so the test runs it every time."""
     test_random_points_equal_the_reference(study, 7)
-
-
-# ---- what it is good for
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -73,9 +61,9 @@ def test_thin_shell_is_told_exactly(medial, seed):
     analysis = medial.MedialAnalysis(points)
     assert analysis.sides_from == medial.SidesFrom.POLES and analysis.tight_cocone is None
     assert analysis.pole_disagreement > 0.2
-    assert inner(medial, analysis) == exact
+    assert selected_inner(medial, analysis) == exact
     cocone = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
-    assert jaccard(inner(medial, cocone), exact) < 0.5
+    assert jaccard(selected_inner(medial, cocone), exact) < 0.5
 
 
 def test_shell_keeps_its_cavity(medial):
@@ -115,7 +103,7 @@ def test_meshes_without_their_faces(medial, data_file, file):
     analysis = medial.MedialAnalysis(points)
     assert analysis.sides_from == getattr(medial.SidesFrom, chosen)
     by_faces = medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.SURFACE)
-    assert jaccard(inner(medial, analysis), inner(medial, by_faces)) >= least
+    assert jaccard(selected_inner(medial, analysis), selected_inner(medial, by_faces)) >= least
 
 
 @pytest.mark.parametrize("name", ["ellipsoid", "torus", "knot"])
@@ -125,12 +113,9 @@ def test_outliers_do_not_turn_it_inside_out(medial, name):
     box = np.abs(points).max(axis=0)
     strange = np.random.default_rng(1).uniform(-1, 1, (len(points) // 20, 3)) * box
     points = np.concatenate([points, strange])
-    assert (
-        jaccard(inner(medial, poles(medial, points)), exactly_inner(medial, points, shape)) > 0.97
-    )
+    found = selected_inner(medial, poles(medial, points))
+    assert jaccard(found, exactly_inner(medial, points, shape)) > 0.97
 
-
-# ---- what is said
 
 NO_FACES = np.zeros((0, 3), np.int32)
 WORDS = {"openings": "times as long as most", "off": "not on the surface that the poles tell"}
@@ -194,13 +179,10 @@ def test_faces_that_bound_nothing_are_told():
     assert "the 10 faces bound nothing, so their points were read as a cloud" in said
 
 
-# ---- what must not change it
-
-
 def test_bounding_sphere_leaves_the_inner_facets(medial):
     points = SHAPES["shell"].sample(2000, 0)
     plain, within = (poles(medial, points, bounding_sphere=sphere) for sphere in (False, True))
-    assert inner(medial, within) == inner(medial, plain)
+    assert selected_inner(medial, within) == selected_inner(medial, plain)
 
 
 STRUCTURED = inputs.structured_cases()

@@ -36,9 +36,8 @@ def arrays(*polygons):
 def test_small(medial, polygons):
     offsets, corners = arrays(*polygons)
     edges, of_corner = medial.polygon_edges(offsets, corners, 10)
-    wanted, wanted_of_corner = by_hand(offsets, corners)
-    np.testing.assert_array_equal(edges, wanted)
-    np.testing.assert_array_equal(of_corner, wanted_of_corner)
+    for one, other in zip((edges, of_corner), by_hand(offsets, corners), strict=True):
+        np.testing.assert_array_equal(one, other)
     assert edges.dtype == of_corner.dtype == np.int32
 
 
@@ -69,7 +68,6 @@ def test_refused(medial, offsets, corners, found):
 @pytest.mark.parametrize("dtype", [np.int64, np.float64])
 def test_other_types_are_refused(medial, dtype):
     offsets, corners = arrays((0, 1, 2))
-    with pytest.raises(
-        medial.InvalidInputError, match="face_vertices as a contiguous \\(m,\\) int32 array"
-    ):
+    said = r"face_vertices as a contiguous \(m,\) int32 array"
+    with pytest.raises(medial.InvalidInputError, match=said):
         medial.polygon_edges(offsets, corners.astype(dtype), 3)

@@ -8,6 +8,7 @@ import pytest
 from medial_axis.core.axis.polygon_triangles import polygon_triangles
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.machine import native
+from support import topology
 
 from tests.support.fuzz import repeats
 
@@ -25,10 +26,14 @@ OUTLINES = {
 }
 
 
+def triangles_of(points, ring):
+    return polygon_triangles(points, np.array([0, len(ring)], np.int32), np.array(ring, np.int32))
+
+
 def cut(points, ring=None):
     """The triangles of one polygon; its boundary is looked at, whatever it is."""
     ring = np.arange(len(points)) if ring is None else np.asarray(ring)
-    triangles = polygon_triangles(points, np.array([0, len(ring)], np.int32), ring.astype(np.int32))
+    triangles = triangles_of(points, ring)
     assert triangles.shape == (len(ring) - 2, 3) and triangles.dtype == np.int32
     # Corners with the same coordinates are one.
     place = np.unique(points, axis=0, return_inverse=True)[1].ravel()
@@ -51,15 +56,12 @@ def flat(outline, axes=(0, 1, 2)):
     ]
 
 
-def signed_areas(points, triangles):
-    a, b, c = (points[triangles[:, i], :2] for i in range(3))
-    u, v = b - a, c - a
-    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
-
-
-def area_of(points, ring):
-    x, y = points[ring, 0], points[ring, 1]
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+def signed_areas(points):
+    """The areas of the triangles of a polygon, and the area of the polygon."""
+    a, b, c = points[cut(points)].transpose(1, 2, 0)
+    (ux, uy, _), (vx, vy, _), (x, y, _) = b - a, c - a, points.T
+    whole = float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+    return (ux * vy - uy * vx) / 2, whole
 
 
 def star_shaped(count, random):
@@ -74,7 +76,7 @@ def test_concave_polygons_are_cut_inside(outline, turned):
     points = flat(outline)
     if turned:
         points = points[::-1].copy()
-    areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
+    areas, whole = signed_areas(points)
     assert np.sign(areas).tolist() == [np.sign(whole)] * (len(points) - 2)
     assert areas.sum() == pytest.approx(whole)
 
@@ -95,18 +97,16 @@ def test_a_quad_is_cut_from_its_first_corner_where_it_is_convex():
 
 def test_a_polygon_of_a_hundred_thousand_corners():
     """A star with as many spikes; the triangles have its area, none turns back."""
-    points = star_shaped(100_000, np.random.default_rng(2))
-    areas = signed_areas(points, cut(points))
+    areas, whole = signed_areas(star_shaped(100_000, np.random.default_rng(2)))
     assert areas.min() > 0
-    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))), rel=1e-12)
+    assert areas.sum() == pytest.approx(whole, rel=1e-12)
 
 
 def test_a_comb_of_a_hundred_thousand_corners():
     x = np.arange(50_000)
     teeth = np.column_stack([np.repeat(x, 2)[1:-1] / 50_000, np.tile([0, 0, 1, 1], 25_000)[1:-1]])
-    points = flat([*teeth, (1, 2), (0, 2)])
-    areas = signed_areas(points, cut(points))
-    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))), rel=1e-9)
+    areas, whole = signed_areas(flat([*teeth, (1, 2), (0, 2)]))
+    assert areas.sum() == pytest.approx(whole, rel=1e-9)
 
 
 @pytest.mark.parametrize("own_corners", [True, False], ids=["the same corners", "others there"])
@@ -123,19 +123,15 @@ def test_holes_that_bridges_join_to_the_rim(holes, own_corners):
     points = flat(places)
     if not own_corners:
         points, ring = points[ring], np.arange(len(ring))
-    count = len(ring)
-    triangles = polygon_triangles(
-        points, np.array([0, count], np.int32), np.asarray(ring, np.int32)
-    )
-    areas = signed_areas(points, triangles)
+    areas = topology.vector_areas(points, triangles_of(points, ring))[:, 2]
     # The bridges from corner 0 to holes further on pass below the holes before them.
-    assert len(triangles) == count - 2 and areas.min() > 0
+    assert len(areas) == len(ring) - 2 and areas.min() > 0
     assert areas.sum() == pytest.approx(6 * holes - holes)
 
 
 def test_repeated_corners_and_spikes_leave_the_region_as_it_is():
     points = flat([(0, 0), (4, 0), (4, 0), (4, 4), (6, 4), (4, 4), (2, 1), (0, 4)])
-    areas = signed_areas(points, cut(points))
+    areas, _ = signed_areas(points)
     assert areas.min() >= 0 and areas.sum() == pytest.approx(10.0)
 
 
@@ -143,50 +139,42 @@ def test_repeated_corners_and_spikes_leave_the_region_as_it_is():
 def test_a_dent_beside_a_repeated_corner(start):
     """The third corner lies on the last side; where the list of corners begins makes no difference."""
     outline = np.roll([(0, 0), (0, 0), (3, 1), (12, -2), (15, 1), (9, 3)], start, axis=0)
-    points = flat(outline)
-    assert np.abs(signed_areas(points, cut(points))).sum() == abs(area_of(points, np.arange(6)))
+    assert_no_more_than_the_area(flat(outline))
 
 
-@pytest.mark.parametrize(
-    "outline",
-    [
-        [(0, 0), (2, 0), (0, 0), (1, 1)],
-        [(0, 0), (2, 0), (1, 0), (1, 1)],
-        [(1, 1), (0, 0), (2, 0), (1, 0)],
-        [(0, 0), (0, 0), (2, 0), (1, 1)],
-        [(0, 0), (1, 0), (2, 0), (1, 1)],
-        [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],
-        [(0, 0), (8, 0), (4, 0), (6, 0), (8, 8), (2, 0), (0, 8)],
-    ],
-    ids=[
-        "two spikes of a quad",
-        "spike of a quad",
-        "another corner first",
-        "repeated",
-        "straight",
-        "touching",
-        "folded side",
-    ],
-)
+def assert_no_more_than_the_area(points):
+    areas, whole = signed_areas(points)
+    assert np.abs(areas).sum() == abs(whole), points[:, :2].tolist()
+
+
+TOUCHING = {
+    "two spikes of a quad": [(0, 0), (2, 0), (0, 0), (1, 1)],
+    "spike of a quad": [(0, 0), (2, 0), (1, 0), (1, 1)],
+    "another corner first": [(1, 1), (0, 0), (2, 0), (1, 0)],
+    "repeated": [(0, 0), (0, 0), (2, 0), (1, 1)],
+    "straight": [(0, 0), (1, 0), (2, 0), (1, 1)],
+    "touching": [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],
+    "folded side": [(0, 0), (8, 0), (4, 0), (6, 0), (8, 8), (2, 0), (0, 8)],
+}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
 @pytest.mark.parametrize("start", range(4))
-def test_polygons_that_touch_themselves_have_no_more_than_their_area(outline, start):
-    points = flat(np.roll(outline, start, axis=0))
-    areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
-    assert np.abs(areas).sum() == abs(whole)
+def test_polygons_that_touch_themselves_have_no_more_than_their_area(name, start):
+    assert_no_more_than_the_area(flat(np.roll(TOUCHING[name], start, axis=0)))
 
 
-@pytest.mark.parametrize(
-    "outline",
-    [
-        [(0, 0), (2, 2), (2, 0), (0, 2), (-1, 1)],
-        [(0, 0)] * 6,
-        [(i, i) for i in range(7)],
-        [(0, 0), (1e308, 0), (-1e308, 1), (0, 2), (-1, 1)],
-    ],
-    ids=["crossing", "one place", "one line", "too large"],
-)
-def test_what_bounds_no_region_still_has_its_boundary(outline):
-    cut(flat(outline))
+NO_REGION = {
+    "crossing": [(0, 0), (2, 2), (2, 0), (0, 2), (-1, 1)],
+    "one place": [(0, 0)] * 6,
+    "one line": [(i, i) for i in range(7)],
+    "too large": [(0, 0), (1e308, 0), (-1e308, 1), (0, 2), (-1, 1)],
+}
+
+
+@pytest.mark.parametrize("name", NO_REGION)
+def test_what_bounds_no_region_still_has_its_boundary(name):
+    cut(flat(NO_REGION[name]))
 
 
 @pytest.mark.parametrize("column", [0, 1, 2])
@@ -215,11 +203,8 @@ def test_random_polygons_cross_themselves_and_end_soon():
 def test_a_polygon_that_winds_twice_round_a_part_keeps_its_boundary():
     """The polygon has as many faces in its plane as one without crossings; two of them count twice."""
     points = np.array([(0, 4, 1), (4, 0, 3), (4, 2, 4), (4, 0, 4), (3, 3, 4), (0, 4, 4)], float)
-    cut(points, [0, 1, 2, 3, 4, 1, 3, 5])
-    cut(
-        points @ np.array([(0.6, 0.8, 0.0), (-0.8, 0.6, 0.0), (0.0, 0.0, 1.0)]),
-        [0, 1, 2, 3, 4, 1, 3, 5],
-    )
+    for turn in (np.eye(3), np.array([(0.6, 0.8, 0.0), (-0.8, 0.6, 0.0), (0.0, 0.0, 1.0)])):
+        cut(points @ turn, [0, 1, 2, 3, 4, 1, 3, 5])
 
 
 @pytest.mark.parametrize("seed", repeats(60))
@@ -230,21 +215,17 @@ def test_fuzzed_polygons(seed):
         count, grid = random.integers(3, 40), random.choice([2, 3, 5, 1000])
         points = random.integers(0, grid, (count, 3)).astype(float)
         points[:, 2] *= random.choice([0, 0, 1])
-        points = (
-            points @ np.linalg.qr(random.normal(size=(3, 3)))[0]
-            if random.random() < 0.5
-            else points
-        )
+        if random.random() < 0.5:
+            points = points @ np.linalg.qr(random.normal(size=(3, 3)))[0]
         cut(points * 10.0 ** random.integers(-80, 80), random.integers(0, count, count))
 
 
 @pytest.mark.parametrize("seed", repeats(20))
 def test_fuzzed_simple_polygons(seed):
     random = np.random.default_rng([seed, 16])
-    points = star_shaped(int(random.integers(5, 3000)), random)
-    areas = signed_areas(points, cut(points))
+    areas, whole = signed_areas(star_shaped(int(random.integers(5, 3000)), random))
     assert areas.min() > 0
-    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))))
+    assert areas.sum() == pytest.approx(whole)
 
 
 STEP = 32
@@ -279,9 +260,7 @@ def degenerate(random):
 def test_fuzzed_polygons_without_crossings_have_no_more_than_their_area(seed):
     random = np.random.default_rng([seed, 17])
     for _ in range(50):
-        points = flat(degenerate(random))
-        areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
-        assert np.abs(areas).sum() == abs(whole), points[:, :2].tolist()
+        assert_no_more_than_the_area(flat(degenerate(random)))
 
 
 @pytest.mark.parametrize("seed", repeats(20))
@@ -290,27 +269,21 @@ def test_rounding_of_turned_polygons_adds_no_area(seed):
     random = np.random.default_rng([seed, 18])
     for _ in range(50):
         outline = flat(degenerate(random))
-        whole = abs(area_of(outline, np.arange(len(outline))))
+        _, whole = signed_areas(outline)
         points = outline @ np.linalg.qr(random.normal(size=(3, 3)))[0] + random.normal(size=3)
-        ring = np.arange(len(points), dtype=np.int32)
-        triangles = polygon_triangles(points, np.array([0, len(ring)], np.int32), ring)
-        a, b, c = (points[triangles[:, i]] for i in range(3))
-        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-        assert area == pytest.approx(whole, rel=1e-9), outline[:, :2].tolist()
+        area = topology.area(points, triangles_of(points, np.arange(len(points))))
+        assert area == pytest.approx(abs(whole), rel=1e-9), outline[:, :2].tolist()
 
 
 def test_an_obj_cylinder_with_caps_of_many_corners(tmp_path):
     count = 20_000
     angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
     lines = [f"v {np.cos(a):.9g} {np.sin(a):.9g} {z}" for a in angles for z in (0, 1)]
-    lines += [
-        f"f {2 * i + 1} {(2 * i + 2) % (2 * count) + 1} {(2 * i + 3) % (2 * count) + 1} {2 * i + 2}"
-        for i in range(count)
-    ]
-    lines.append("f " + " ".join(str(2 * i + 1) for i in reversed(range(count))))
-    lines.append("f " + " ".join(str(2 * i + 2) for i in range(count)))
+    low = 2 * np.arange(count) + 1
+    after = np.roll(low, -1)
+    faces = [*np.column_stack((low, after, after + 1, low + 1)), low[::-1], low + 1]
+    lines += ["f " + " ".join(map(str, face)) for face in faces]
     (tmp_path / "a.obj").write_text("\n".join(lines))
     shape, _ = read_shape(tmp_path / "a.obj")
-    a, b, c = (shape.points[shape.triangles[:, i]] for i in range(3))
     assert len(shape.triangles) == 2 * count + 2 * (count - 2)
-    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(np.pi, rel=1e-6)
+    assert topology.volume(shape.points, shape.triangles) == pytest.approx(np.pi, rel=1e-6)

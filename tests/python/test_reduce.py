@@ -2,9 +2,12 @@
 """Small medial meshes: topology by an independent count, exact shapes, solids measured by brute force, files."""
 
 import itertools
+from dataclasses import replace
 
+import medial_axis
 import numpy as np
 import pytest
+from medial_axis import cli
 from medial_axis.core.axis.medial_axis import MedialAxis
 from medial_axis.core.axis.polygon_triangles import triangulate_facets
 from medial_axis.core.errors import Cancelled, InvalidInputError, ReadError
@@ -12,8 +15,8 @@ from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis
 from medial_axis.core.machine.progress import Progress
 from medial_axis.core.rebuild.reduce import reduce_axis, reduced_difference
-from medial_axis.core.shape.shape import Shape
-from support import meshes
+from support import meshes, topology
+from support.thick_meshes import ellipsoid
 
 pytestmark = pytest.mark.oracle
 
@@ -23,19 +26,10 @@ NO_TRIANGLES = np.zeros((0, 3), np.int32)
 
 def betti(vertices, triangles, edges):
     """Components, tunnels and cavities over the field of two elements, by elimination of columns."""
-    number = {}
-    sides = [
-        {
-            number.setdefault(tuple(sorted(pair)), len(number))
-            for pair in itertools.combinations(t, 2)
-        }
-        for t in triangles.tolist()
-    ]
-    for pair in edges.tolist():
-        number.setdefault(tuple(sorted(pair)), len(number))
-    filled = rank(sides)
-    joined = rank([set(pair) for pair in number])
-    return vertices - joined, len(number) - joined - filled, len(sides) - filled
+    sides = [list(itertools.combinations(sorted(t), 2)) for t in triangles.tolist()]
+    pairs = {*itertools.chain(*sides), *(tuple(sorted(pair)) for pair in edges.tolist())}
+    filled, joined = rank(map(set, sides)), rank(map(set, pairs))
+    return vertices - joined, len(pairs) - joined - filled, len(sides) - filled
 
 
 def rank(columns):
@@ -52,11 +46,7 @@ def grid(along=13, across=9, radius=0.3):
     """A flat rectangle, 6 by 4, as triangles of balls of one radius."""
     x, y = np.meshgrid(np.linspace(0, 6, along), np.linspace(0, 4, across), indexing="ij")
     vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
-    rows = np.arange(x.size).reshape(along, across)
-    a, b, c, d = rows[:-1, :-1], rows[1:, :-1], rows[1:, 1:], rows[:-1, 1:]
-    triangles = np.concatenate(
-        [np.stack(t, -1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))]
-    ).astype(np.int32)
+    triangles = meshes.lattice(np.arange(x.size).reshape(along, across))
     return vertices, np.full(len(vertices), radius), triangles, NO_EDGES
 
 
@@ -73,15 +63,8 @@ def random_complex(seed, vertices=14, triangles=16, edges=10):
     corners = np.array([random.choice(vertices, 3, replace=False) for _ in range(triangles)])
     pairs = np.array([random.choice(vertices, 2, replace=False) for _ in range(edges)])
     corners = np.unique(np.sort(corners, axis=1), axis=0).astype(np.int32)
-    return (
-        random.normal(size=(vertices, 3)),
-        random.uniform(0.01, 0.1, vertices),
-        corners,
-        pairs.astype(np.int32).reshape(-1, 2),
-    )
-
-
-# --- topology
+    places, radii = random.normal(size=(vertices, 3)), random.uniform(0.01, 0.1, vertices)
+    return places, radii, corners, pairs.astype(np.int32).reshape(-1, 2)
 
 
 @pytest.mark.parametrize("seed", range(150))
@@ -116,9 +99,6 @@ def test_the_shell_of_a_tetrahedron_is_the_least_that_holds_a_cavity(medial):
     assert (len(found[0]), len(found[2]), len(found[3])) == (4, 4, 0)
 
 
-# --- exact shapes
-
-
 def test_a_flat_sheet_becomes_two_triangles_without_an_error(medial):
     mesh = grid()
     vertices, radius, triangles, edges = medial.reduce_sphere_mesh(*mesh, 4)
@@ -142,8 +122,7 @@ def test_no_triangle_of_a_sheet_turns_over(medial, wanted, radii):
     balls = vertices[used], wavy if radii == "wavy" else uneven
     ring = corners.reshape(-1, 3).astype(np.int32)
     places, _, left, _ = medial.reduce_sphere_mesh(*balls, ring, edges, wanted)
-    a, b, c = places[left].transpose(1, 0, 2)
-    assert len(left) > wanted / 2 and (np.cross(b - a, c - a)[:, 2] > 0).all()
+    assert len(left) > wanted / 2 and (topology.vector_areas(places, left)[:, 2] > 0).all()
 
 
 @pytest.mark.parametrize("radii", [(0.5, 0.5), (0.5, 0.2), (0.05, 1.0)])
@@ -159,9 +138,6 @@ def test_enough_vertices_change_nothing(medial):
     mesh = grid()
     for before, after in zip(mesh, medial.reduce_sphere_mesh(*mesh, len(mesh[0])), strict=True):
         assert np.array_equal(before, after)
-
-
-# --- the solid
 
 
 def least_of_samples(query, spheres, steps=200):
@@ -203,16 +179,9 @@ def test_more_points_than_memory_are_refused(medial, spacing):
         medial.solid_surface(*wire(count=3), spacing)
 
 
-def ellipsoid():
-    points, triangles = meshes.icosphere(3)
-    return Shape(points * (1.0, 0.7, 0.5), triangles.astype(np.int32))
-
-
 @pytest.fixture(scope="module")
 def computed():
-    import medial_axis
-
-    shape = ellipsoid()
+    shape = meshes.shape_of(ellipsoid(subdivisions=3))
     return shape, medial_axis.compute(shape.points, shape.triangles)
 
 
@@ -235,8 +204,6 @@ def test_the_solid_of_an_ellipsoid_stays(computed):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["3holes.off", "rocker-arm.off", "hand_closed.obj", "knot1.off"])
 def test_real_meshes_keep_their_holes(data_file, name):
-    import medial_axis
-
     shape = medial_axis.read(data_file(name))
     axis = medial_axis.compute(shape.points, shape.triangles, sampling="vertices").axis
     triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
@@ -246,9 +213,6 @@ def test_real_meshes_keep_their_holes(data_file, name):
         corners = reduced.face_vertices.reshape(-1, 3)
         assert len(reduced.vertices) <= wanted
         assert betti(len(reduced.vertices), corners, reduced.edges) == before
-
-
-# --- what is refused
 
 
 @pytest.mark.parametrize(
@@ -272,15 +236,10 @@ def test_what_is_refused(medial, change, match):
 
 
 def test_another_side_is_refused(computed):
-    from dataclasses import replace
-
     axis = computed[1].axis
     other = replace(axis, side=np.full(axis.facets, 2, np.int32))
     with pytest.raises(InvalidInputError, match="axis of the inside"):
         reduce_axis(other, 10)
-
-
-# --- files
 
 
 def parsed(path):
@@ -341,15 +300,10 @@ def test_comments_and_wires_of_other_tools(tmp_path):
 
 
 def test_command_line(tmp_path, monkeypatch):
-    from medial_axis import cli
-
     monkeypatch.chdir(tmp_path)
-    points, triangles = meshes.icosphere(3)
-    lines = [f"v {x} {y} {z}" for x, y, z in points * (1.0, 0.7, 0.5)]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]
-    (tmp_path / "shape.obj").write_text("\n".join(lines))
-    assert cli.main(["shape.obj", "shape.ma", "--vertices", "12"]) == 0
+    meshes.write_off(tmp_path / "shape.off", ellipsoid(subdivisions=3))
+    assert cli.main(["shape.off", "shape.ma", "--vertices", "12"]) == 0
     assert len(parsed(tmp_path / "shape.ma")[0]) <= 12
-    assert cli.main(["shape.obj", "shape.npz", "--vertices", "12"]) == 0
-    assert cli.main(["shape.obj", "shape.ma", "--vertices", "-1"]) == 2
-    assert cli.main(["shape.obj", "shape.ma", "--vertices", "5", "--side", "outer"]) == 2
+    assert cli.main(["shape.off", "shape.npz", "--vertices", "12"]) == 0
+    assert cli.main(["shape.off", "shape.ma", "--vertices", "-1"]) == 2
+    assert cli.main(["shape.off", "shape.ma", "--vertices", "5", "--side", "outer"]) == 2

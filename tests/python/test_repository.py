@@ -45,11 +45,8 @@ def test_folder_is_replaced_as_a_whole(tmp_path, archives, generator):
     target.mkdir()
     (target / "medial_axis-0-linux-x64.zip").write_bytes(b"old")
     rows = repository.make(archives, target, generator(9))
-    assert sorted(path.name for path in target.iterdir()) == [
-        "index.html",
-        "index.json",
-        *(path.name for path in archives),
-    ]
+    names = ["index.html", "index.json", *(path.name for path in archives)]
+    assert sorted(path.name for path in target.iterdir()) == names
     assert json.loads((target / "index.json").read_text())["data"] == rows
 
 

@@ -19,9 +19,8 @@ def rim_edges(level):
     corners, offsets = level.face_vertices, level.face_offsets
     following = np.roll(corners, -1)
     following[offsets[1:] - 1] = corners[offsets[:-1]]
-    edges, times = np.unique(
-        np.sort(np.column_stack((corners, following)), axis=1), axis=0, return_counts=True
-    )
+    pairs = np.sort(np.column_stack((corners, following)), axis=1)
+    edges, times = np.unique(pairs, axis=0, return_counts=True)
     return edges[times == 1]
 
 

@@ -62,6 +62,18 @@ def arm(tmp_path):
     return path
 
 
+def links_of(path):
+    return {link.get("name"): link for link in ElementTree.parse(path).getroot().iter("link")}
+
+
+def robot(tmp_path, *links):
+    """The file of a robot whose links have these geometries."""
+    text = "<collision><geometry>{}</geometry></collision>"
+    rows = [f"<link name='{'ab'[i]}'>{text.format(link)}</link>" for i, link in enumerate(links)]
+    (tmp_path / "a.urdf").write_text(f"<robot>{''.join(rows)}</robot>")
+    return tmp_path / "a.urdf"
+
+
 def run(*words):
     return cli.main(["robot", *map(str, words), "--samples", "1500"])
 
@@ -71,19 +83,16 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
     out = tmp_path / "out.urdf"
     assert run(arm, out, *words, "--json") == cli.DONE
     report = json.loads(capsys.readouterr().out)
-    links = {link.get("name"): link for link in ElementTree.parse(out).getroot().iter("link")}
+    links = links_of(out)
     for geometry, told in zip(read_robot(arm)[0].links, report["links"], strict=True):
         if geometry.name == "tip":
             assert told["count"] == 0 and not told["problem"], "a sphere stays"
             continue
         assert 1 <= told["count"] <= int(words[1])
-        gap = away(
-            links[geometry.name],
-            points_on_triangles(
-                geometry.points[geometry.triangles], 3000, np.random.default_rng(0)
-            ),
-        )
-        assert gap.max() <= 1e-9 and told["farthest"] > 0.0 and told["volume"] > 0.0
+        corners = geometry.points[geometry.triangles]
+        places = points_on_triangles(corners, 3000, np.random.default_rng(0))
+        assert away(links[geometry.name], places).max() <= 1e-9
+        assert told["farthest"] > 0.0 and told["volume"] > 0.0
     assert report["links_left"] == []
     if "--capsules" in words:
         assert report["links"][0]["volume"] == pytest.approx(0.0022, rel=0.05)  # of the least one
@@ -96,7 +105,7 @@ def test_every_link_is_held(arm, tmp_path, words, capsys):
 def test_balls_inside_stay_in_their_link(arm, tmp_path):
     out = tmp_path / "out.urdf"
     assert run(arm, out, "--balls", 8, "--mode", "inside") == cli.DONE
-    links = {link.get("name"): link for link in ElementTree.parse(out).getroot().iter("link")}
+    links = links_of(out)
     ways = np.random.default_rng(0).normal(size=(200, 3))
     ways /= np.linalg.norm(ways, axis=1)[:, None]
     for geometry in read_robot(arm)[0].links[:3]:
@@ -115,11 +124,11 @@ def test_everything_else_stays_byte_for_byte(arm, tmp_path):
     old, new = arm.read_bytes(), out.read_bytes()
     pattern = rb"\s*<collision[^>]*>(?:(?!</collision>)[\s\S])*</collision>"
     # The first collision of a link keeps its name, which holds a >, and the place on its line.
-    names = rb'<collision name="base > hull">', rb'<collision name="base &gt; hull">'
-    assert names[0] in old and names[1] in new
-    assert re.sub(pattern, b"", old.replace(names[0], b"<collision>")) == re.sub(
-        pattern, b"", new.replace(names[1], b"<collision>")
-    )
+    others = []
+    for text, name in ((old, b'name="base > hull"'), (new, b'name="base &gt; hull"')):
+        assert b"<collision " + name in text
+        others.append(re.sub(pattern, b"", text.replace(name, b"")))
+    assert others[0] == others[1]
     assert b'<collision><geometry><sphere radius="0.02"/></geometry></collision></link>' in new
     assert new.count(b"\r\n") == 4 and b"-->\n    <inertial>" in new
 
@@ -140,18 +149,14 @@ def test_a_tolerance_takes_as_few_as_it_needs(arm, tmp_path, capsys):
 def test_a_link_that_cannot_be_used_stays_and_is_told(arm, tmp_path, capsys):
     (arm.parent.parent / "meshes" / "ring.off").unlink()
     assert run(arm, tmp_path / "out.urdf", "--balls", 1) == cli.INPUT
-    assert (
-        "the link 'hand' stays as it was: Expected the file of 'package://"
-        in capsys.readouterr().err
-    )
+    said = "the link 'hand' stays as it was: Expected the file of 'package://"
+    assert said in capsys.readouterr().err
     assert b"ring.off" in (tmp_path / "out.urdf").read_bytes()
 
 
 def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
-    box = "<collision><geometry><box size='2 1 1'/></geometry></collision>"
-    links = "".join(f"<link name='{name}'>{box}</link>" for name in "ab")
-    (tmp_path / "a.urdf").write_text(f"<robot>{links}</robot>")
-    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf", "--json") == cli.DONE
+    box = "<box size='2 1 1'/>"
+    assert run(robot(tmp_path, box, box), tmp_path / "b.urdf", "--json") == cli.DONE
     one, other = json.loads(capsys.readouterr().out)["links"]
     assert one["seconds"] > 0.0 == other["seconds"] and other["name"] == "b"
     assert {**one, "name": "b", "seconds": 0.0} == other
@@ -161,9 +166,8 @@ def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
 def test_a_link_gives_the_warnings_of_its_solid(tmp_path, capsys):
     points, triangles = block(2, 1, 1)
     write_off(tmp_path / "open.off", (points, triangles[1:]))
-    mesh = "<collision><geometry><mesh filename='open.off'/></geometry></collision>"
-    (tmp_path / "a.urdf").write_text(f"<robot><link name='a'>{mesh}</link></robot>")
-    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf") == cli.DONE
+    path = robot(tmp_path, "<mesh filename='open.off'/>")
+    assert run(path, tmp_path / "b.urdf") == cli.DONE
     assert "the link 'a': the surface is open at 3 edges" in capsys.readouterr().err
 
 
@@ -187,19 +191,18 @@ def test_what_is_no_robot_is_refused(tmp_path, text, said):
 @pytest.mark.parametrize(
     "geometry, said",
     [
-        ("<geometry/>", "Expected a shape in <geometry>"),
-        ("<geometry><cone/></geometry>", "found <cone>"),
-        ("<geometry><box size='1 1'/></geometry>", "Expected 3 numbers above 0 as size of <box>"),
-        ("<geometry><sphere radius='-1'/></geometry>", "Expected 1 number above 0 as radius"),
-        ("<geometry><mesh filename='a.dae'/></geometry>", "ends in"),
+        ("", "Expected a shape in <geometry>"),
+        ("<cone/>", "found <cone>"),
+        ("<box size='1 1'/>", "Expected 3 numbers above 0 as size of <box>"),
+        ("<sphere radius='-1'/>", "Expected 1 number above 0 as radius"),
+        ("<mesh filename='a.dae'/>", "ends in"),
     ],
 )
 def test_geometry_that_cannot_be_read_is_told(tmp_path, geometry, said):
-    text = f"<robot><link name='a'><collision>{geometry}</collision></link></robot>"
-    (tmp_path / "a.urdf").write_text(text)
-    (link,) = read_robot(tmp_path / "a.urdf")[0].links
+    path = robot(tmp_path, geometry)
+    (link,) = read_robot(path)[0].links
     assert said in link.problem
-    assert run(tmp_path / "a.urdf", tmp_path / "b.urdf") == cli.INPUT
+    assert run(path, tmp_path / "b.urdf") == cli.INPUT
     assert not (tmp_path / "b.urdf").exists()
 
 
@@ -228,11 +231,8 @@ def test_primitives_are_closed_and_hold_the_round_ones():
 def test_elements_know_their_bytes():
     data = "<a x='>'><b/><c y=\"'>\" >ü</c ><d/></a>".encode()
     root = elements_of(data)
-    assert [data[e.start : e.end].decode() for e in root.children] == [
-        "<b/>",
-        '<c y="\'>" >ü</c >',
-        "<d/>",
-    ]
+    parts = [data[e.start : e.end].decode() for e in root.children]
+    assert parts == ["<b/>", '<c y="\'>" >ü</c >', "<d/>"]
     assert (root.start, root.end) == (0, len(data))
 
 
@@ -242,8 +242,7 @@ def test_parsers_of_robots_read_them(arm, tmp_path, parser):
     out = Path(arm).with_name("out.urdf")
     assert run(arm, out) == cli.DONE
     if parser == "mujoco":
-        model = module.MjModel.from_xml_path(str(out))
-        kinds = model.geom_type.tolist()
+        kinds = module.MjModel.from_xml_path(str(out)).geom_type.tolist()
         assert kinds.count(int(module.mjtGeom.mjGEOM_CYLINDER)) == 3
         assert kinds.count(int(module.mjtGeom.mjGEOM_SPHERE)) == 7
         return

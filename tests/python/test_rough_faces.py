@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces with noise or steps: what is measured, and where the vertices go."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,16 +16,21 @@ from support.data import DATA
 from support.inputs import rotation
 from support.meshes import box, icosphere, torus
 
-RADIUS = 1.0
-
 
 @cache
-def sphere(noise):
-    """10,242 vertices with errors of so many edges along the normals."""
-    points, triangles = icosphere(5, RADIUS)
+def sphere(noise, subdivisions=5):
+    """10,242 vertices, or fewer, with errors of so many edges along the normals."""
+    points, triangles = icosphere(subdivisions)
     edge = float(np.linalg.norm(points[triangles[0, 0]] - points[triangles[0, 1]]))
     errors = np.random.default_rng(1).normal(size=(len(points), 1))
     return points * (1.0 + noise * edge * errors), np.asarray(triangles, np.int32)
+
+
+def apart(points, triangles):
+    """The faces, each with vertices of its own."""
+    return points[triangles].reshape(-1, 3), np.arange(triangles.size, dtype=np.int32).reshape(
+        -1, 3
+    )
 
 
 def cubes(cells):
@@ -62,7 +68,7 @@ def prepared(mesh, **options):
     return shape, *smooth_faces(shape, Settings(**options))
 
 
-def off(points, radius=RADIUS):
+def off(points, radius=1.0):
     return float(np.std(np.linalg.norm(points, axis=1) / radius))
 
 
@@ -70,16 +76,18 @@ def off(points, radius=RADIUS):
 def test_noise_is_measured_and_moved_away(noise):
     shape, found, said = prepared(sphere(noise))
     assert off(found.points) < 0.45 * off(shape.points)
-    assert abs(np.linalg.norm(found.points, axis=1).mean() - RADIUS) < 0.002
+    assert abs(np.linalg.norm(found.points, axis=1).mean() - 1.0) < 0.002
     assert found.triangles is shape.triangles and "their vertices were moved" in said
 
 
 def test_steps_of_voxels_are_moved_away():
     points, quads = cubes(30)
-    shape, found, said = prepared((between(points, quads), halves(quads)))
-    assert off(found.points, 29) < 0.6 * off(shape.points, 29) and "steps of about" in said
-    shape, found, said = prepared((points, halves(quads)), prepare=Prepare.ALWAYS)
-    assert off(found.points, 29) < 0.35 * off(shape.points, 29) and "steps of about" in said
+    for places, wanted, left in (
+        (between(points, quads), Prepare.AUTOMATIC, 0.6),
+        (points, Prepare.ALWAYS, 0.35),
+    ):
+        shape, found, said = prepared((places, halves(quads)), prepare=wanted)
+        assert off(found.points, 29) < left * off(shape.points, 29) and "steps of about" in said
 
 
 @pytest.mark.parametrize("kind", ["along the axes", "turned", "apart", "with grass"])
@@ -90,8 +98,7 @@ def test_cubes_stay_cubes(kind):
     if kind == "turned":
         points = np.float64(np.float32(points @ rotation(1)))
     if kind == "apart":
-        points, triangles = points[triangles].reshape(-1, 3), np.arange(triangles.size)
-        triangles = triangles.reshape(-1, 3).astype(np.int32)
+        points, triangles = apart(points, triangles)
     if kind == "with grass":
         blade = points[triangles[:20]].reshape(-1, 3) @ rotation(1)
         triangles = np.vstack([triangles, len(points) + np.arange(60).reshape(-1, 3)])
@@ -134,32 +141,27 @@ def test_off_and_a_wrap_leave_the_faces():
 def test_faces_without_common_corners_are_one_surface():
     """Each triangle has its own corners, as in STL files; those in one place stay in one place."""
     points, triangles = sphere(0.3)
-    apart = points[triangles].reshape(-1, 3), np.arange(triangles.size, dtype=np.int32)
-    _, found, _ = prepared((apart[0], apart[1].reshape(-1, 3)))
+    _, found, _ = prepared(apart(points, triangles))
     assert len(np.unique(found.points, axis=0)) == len(points)
     assert off(found.points) < 0.45 * off(points)
 
 
-def test_few_faces_are_no_noise_unless_someone_says_so():
-    """Details of a shape that was modelled coarse are as large as its faces, as those of Blender's monkey."""
-    points, triangles = icosphere(3, RADIUS)
-    edge = float(np.linalg.norm(points[triangles[0, 0]] - points[triangles[0, 1]]))
-    errors = np.random.default_rng(1).normal(size=(len(points), 1))
-    mesh = points * (1.0 + 0.3 * edge * errors), np.asarray(triangles, np.int32)
+def assert_moved_by_always_alone(mesh, words):
     shape, found, said = prepared(mesh)
     assert found is shape and said == ""
-    _, found, said = prepared(mesh, prepare=Prepare.ALWAYS)
-    assert "their vertices were moved" in said
+    assert words in prepared(mesh, prepare=Prepare.ALWAYS)[2]
+
+
+def test_few_faces_are_no_noise_unless_someone_says_so():
+    """Details of a shape that was modelled coarse are as large as its faces, as those of Blender's monkey."""
+    assert_moved_by_always_alone(sphere(0.3, 3), "their vertices were moved")
 
 
 def test_designed_faces_of_uneven_size_are_no_noise():
     """As of a plate with letters: faces that are small at one end, and errors of a share of their size."""
     points, triangles = sphere(0.3)
-    points = points * np.exp(3.0 * points[:, 2:] / RADIUS)
-    shape, found, said = prepared((points, triangles))
-    assert found is shape and said == ""
-    _, found, said = prepared((points, triangles), prepare=Prepare.ALWAYS)
-    assert "spacings were found in the faces" in said
+    mesh = points * np.exp(3.0 * points[:, 2:]), triangles
+    assert_moved_by_always_alone(mesh, "spacings were found in the faces")
 
 
 @pytest.mark.parametrize("scale", [2.0**160, 2.0**-160])
@@ -195,13 +197,9 @@ def test_the_report_has_the_samples_of_the_axis():
 
 def test_the_axis_of_a_noisy_ring_is_a_ring():
     """As it is, the axis has flakes; prepared, it lies on the circle."""
-    points, triangles = noisy_ring()
+    settings = Settings(sampling=SamplingMode.VERTICES, mesh=Mesh.VORONOI)
     off, found = (
-        compute(
-            points,
-            triangles,
-            Settings(prepare=prepare, sampling=SamplingMode.VERTICES, mesh=Mesh.VORONOI),
-        )
+        compute(*noisy_ring(), replace(settings, prepare=prepare))
         for prepare in (Prepare.OFF, Prepare.AUTOMATIC)
     )
     assert found.axis.level.betti == (1, 1, 0)

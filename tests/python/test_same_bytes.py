@@ -4,15 +4,11 @@ compiled module are searched for it.
 """
 
 import re
-import sys
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.packaging import check_module, paths  # noqa: E402 - found through the line above
+from tools.packaging import check_module, paths
 
 SOURCES = [
     path
@@ -44,26 +40,16 @@ def code_of(path):
 
 
 def test_sources_call_no_inexact_function():
-    functions = check_module.INEXACT.pattern
-    found = {
-        (path.name, match[0])
-        for path in SOURCES
-        for match in re.finditer(rf"\bstd::({functions})\(", code_of(path))
-    }
+    call = re.compile(rf"\bstd::({check_module.INEXACT.pattern})\(")
     assert len(SOURCES) > 200
-    assert found == set()
+    assert [path.name for path in SOURCES if call.search(code_of(path))] == []
 
 
 def test_orders_that_the_standard_leaves_open_are_not_used_for_items():
-    found = {
-        path.name: len(OPEN.findall(code_of(path)))
-        for path in SOURCES
-        if OPEN.search(code_of(path))
-    }
     # Medians: of all that is left in the order, the value in the middle alone is read.
     medians = {"samples_on_faces.cpp", "closing_samples.cpp"}
     medians |= {"outliers.cpp", "mover.cpp", "noise.cpp"}
-    assert set(found) == medians
+    assert {path.name for path in SOURCES if OPEN.search(code_of(path))} == medians
 
 
 HASHED = re.compile(r"std::unordered_\w+<")
@@ -71,21 +57,16 @@ HASHED = re.compile(r"std::unordered_\w+<")
 
 def visited_in_the_order_of_hashes(code):
     """The names of hash tables that a loop, or an iterator, visits: each C++ library has its own order."""
-    tables = "|".join(
-        ["std::unordered_\\w+<.*>", *re.findall(r"using (\w+) = std::unordered_", code)]
-    )
+    aliases = re.findall(r"using (\w+) = std::unordered_", code)
+    tables = "|".join([r"std::unordered_\w+<.*>", *aliases])
     names = set(re.findall(rf"(?:{tables})[>,\s&\d]*\s(\w+)[;,)({{]", code))
     return sorted(name for name in names if re.search(rf": {name}\)|\b{name}\.c?begin\(", code))
 
 
 def test_no_result_has_the_order_of_hashes():
     tables = {path: code_of(path) for path in SOURCES if HASHED.search(code_of(path))}
-    assert {path.name for path in tables} == {
-        "winding_number.cpp",
-        "pockets.cpp",
-        "level_set.cpp",
-        "paired_samples.h",
-    }
+    names = {"winding_number.cpp", "pockets.cpp", "level_set.cpp", "paired_samples.h"}
+    assert {path.name for path in tables} == names
     for path, code in tables.items():
         unit = path.with_suffix(".cpp")
         assert visited_in_the_order_of_hashes(code + code_of(unit)) == [], path.name

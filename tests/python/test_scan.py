@@ -31,7 +31,9 @@ def prepare(points, **options):
     return prepared(Shape(points, NO_FACES), Settings(**options))
 
 
-# ---- the measure
+def assert_the_same(points, **options):
+    shape = Shape(points, NO_FACES)
+    assert prepared(shape, Settings(**options))[0] is shape
 
 
 @pytest.mark.oracle
@@ -57,18 +59,14 @@ def test_noise_of_thin_walls_is_measured(medial, noise):
 @pytest.mark.oracle
 @pytest.mark.parametrize("name", ["ellipsoid", "torus", "box", "slab", "knot", "shell"])
 def test_clean_points_stay_the_same(name):
-    points, _ = noisy(SHAPES[name], 0.0)
-    shape = Shape(points, NO_FACES)
-    assert prepared(shape, Settings())[0] is shape
-    assert prepared(shape, Settings(prepare=Prepare.ALWAYS))[0] is shape
+    for wanted in (Prepare.AUTOMATIC, Prepare.ALWAYS):
+        assert_the_same(noisy(SHAPES[name], 0.0)[0], prepare=wanted)
 
 
 @pytest.mark.skipif(not DATA.is_dir(), reason=f"needs {DATA}")
 @pytest.mark.parametrize("name", ["dilo.off", "openscad-nonmanifold-crash.obj", "rocker-arm.off"])
 def test_vertices_of_meshes_are_clean(name):
-    points = read_shape(DATA / name)[0].points
-    shape = Shape(points, NO_FACES)
-    assert prepared(shape, Settings())[0] is shape
+    assert_the_same(read_shape(DATA / name)[0].points)
 
 
 def test_outliers_leave_and_nothing_else():
@@ -113,9 +111,6 @@ def test_errors_have_few_pairs_at_the_same_height(medial, name, noise):
     assert 0.8 < medial.measure_scan(noisy(SHAPES[name], noise, 8000)[0]).mates < 1.3
 
 
-# ---- the mover
-
-
 @pytest.mark.parametrize("noise", [0.25, 0.5, 1.0])
 def test_points_come_to_lie_on_the_sphere(noise):
     """Without bias: the mean of what is left is small against its spread, and that against the new spacing."""
@@ -138,9 +133,6 @@ def test_the_edges_of_the_faces_stay_flat():
     inner = depth[:, 1] > 6 * spacing
     assert inner.sum() > 100
     assert np.sqrt((depth[inner, 0] ** 2).mean()) < 0.15 * spacing
-
-
-# ---- the result, and the words
 
 
 @pytest.mark.parametrize(

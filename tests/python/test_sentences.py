@@ -2,25 +2,26 @@
 """A table of inputs, settings and the words in which the program says what it assumes, leaves out or refuses."""
 
 import re
-from functools import cache
+from functools import cache, partial
 
 import medial_axis
 import numpy as np
 import pytest
 from support.clouds import on_ellipsoid
-from support.meshes import icosphere, join, torus
+from support.meshes import flip, icosphere, join, torus
+from support.thick_meshes import ellipsoid
 
 BY_VERTICES = {"sampling": "vertices", "form": "published", "prepare": "off"}
 FEW = {"sampling": "surface", "samples": 1000}
+SMALL_BUDGET = {"sampling": "adaptive", "samples": 1000, "budget": 1500}
+MANY, _ = on_ellipsoid(6000)
 
 
 def cloud(points, normals=None):
     return points, None, normals
 
 
-def egg(subdivisions=2):
-    points, triangles = icosphere(subdivisions)
-    return points * (1.0, 0.7, 0.5), triangles
+egg = partial(ellipsoid, subdivisions=2)
 
 
 def rod():
@@ -35,31 +36,6 @@ def noisy():
     return cloud(on_ellipsoid(5000)[0] + shaken)
 
 
-def with_a_cavity():
-    points, _ = on_ellipsoid(6000)
-    return cloud(np.concatenate([points, 0.4 * points[::4]]))
-
-
-def bowl():
-    points, _ = on_ellipsoid(6000)
-    return cloud(points[points[:, 2] > -0.2])
-
-
-def loose():
-    points, triangles = egg()
-    return np.concatenate([points, np.full((3, 3), 0.1)]), triangles
-
-
-def doubled():
-    points, triangles = egg()
-    return join((points, triangles), (points, triangles[:, ::-1]))
-
-
-def overlapping():
-    points, triangles = icosphere(3)
-    return join((points, triangles), (points + np.array([1.2, 0.0, 0.0]), triangles))
-
-
 SHAPES = {
     "dust": lambda: cloud(np.random.default_rng(2).normal(size=(300, 3))),
     "scan": lambda: cloud(on_ellipsoid()[0]),
@@ -67,14 +43,14 @@ SHAPES = {
     "scan with inward normals": lambda: cloud(on_ellipsoid()[0], -on_ellipsoid()[1]),
     "scan with normals of zeros": lambda: cloud(on_ellipsoid()[0], np.zeros((2000, 3))),
     "noisy scan": noisy,
-    "scan with a cavity": with_a_cavity,
-    "scan of a bowl": bowl,
+    "scan with a cavity": lambda: cloud(np.concatenate([MANY, 0.4 * MANY[::4]])),
+    "scan of a bowl": lambda: cloud(MANY[MANY[:, 2] > -0.2]),
     "egg": egg,
-    "dense egg": lambda: egg(5),
+    "dense egg": ellipsoid,
     "open egg": lambda: (egg()[0], egg()[1][10:]),
-    "egg with loose points": loose,
-    "egg of doubled faces": doubled,
-    "two balls in each other": overlapping,
+    "egg with loose points": lambda: (np.concatenate([egg()[0], np.full((3, 3), 0.1)]), egg()[1]),
+    "egg of doubled faces": lambda: join(egg(), flip(egg())),
+    "two balls in each other": lambda: join(icosphere(3), icosphere(3, 1.0, (1.2, 0.0, 0.0))),
     "rod": rod,
     "square": lambda: ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]),
     "torus": torus,
@@ -117,22 +93,17 @@ TOLD = [
     ("egg of doubled faces", FEW, "lie on another face"),
     ("two balls in each other", FEW, "left out because the surface there bounds nothing"),
     ("rod", {"sampling": "adaptive", "samples": 1500}, "closer together where it is thin, in"),
-    (
-        "rod",
-        {"sampling": "adaptive", "samples": 1000, "budget": 1500, "epsilon": 0.05},
-        "until the budget of 1,500 was spent",
-    ),
+    ("rod", {**SMALL_BUDGET, "epsilon": 0.05}, "until the budget of 1,500 was spent"),
 ]
 
 
-def name_of(row):
-    name, settings, words = row
-    return f"{name}, {settings}, {words}"
+def table(rows):
+    ids = [f"{name}, {settings}, {words}" for name, settings, words in rows]
+    return pytest.mark.parametrize("name, settings, words", rows, ids=ids)
 
 
-@pytest.mark.parametrize("row", TOLD, ids=name_of)
-def test_what_is_told(row):
-    name, settings, words = row
+@table(TOLD)
+def test_what_is_told(name, settings, words):
     sentences = said(computed(name, **settings))
     assert re.search(words, sentences, re.MULTILINE), sentences
 
@@ -144,9 +115,8 @@ NOT_TOLD = [
 ]
 
 
-@pytest.mark.parametrize("row", NOT_TOLD, ids=name_of)
-def test_what_is_not_told(row):
-    name, settings, words = row
+@table(NOT_TOLD)
+def test_what_is_not_told(name, settings, words):
     assert words not in said(computed(name, **settings))
 
 
@@ -162,9 +132,8 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize("row", REFUSED, ids=name_of)
-def test_what_is_refused(row):
-    name, settings, words = row
+@table(REFUSED)
+def test_what_is_refused(name, settings, words):
     with pytest.raises(medial_axis.MedialAxisError, match=f"^Expected .*{words}") as caught:
         computed(name, **settings)
     assert "\n" not in str(caught.value)

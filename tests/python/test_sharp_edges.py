@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Samples near sharp edges mirror each other, and the axis of their surface is clean there."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -50,18 +52,15 @@ def test_rows_are_the_same_on_both_sides(medial, counts):
 
 
 def test_rows_do_not_depend_on_the_triangles(medial):
-    plain, fine = (
+    both = [
         medial.sample_surface(*meshes.box(counts), spacing=SPACING)
         for counts in ((1, 1, 1), (8, 6, 4))
-    )
+    ]
     for edge, signs in EDGES:
-        for face in {0, 1, 2} - {edge}:
-            for row in (0, 1):
-                one, other = (
-                    away_from_corners(in_row(beside(x, edge, signs, face), row), edge)
-                    for x in (plain, fine)
-                )
-                assert one == pytest.approx(other, abs=1e-9)
+        for face, row in itertools.product({0, 1, 2} - {edge}, (0, 1)):
+            one, other = (in_row(beside(x, edge, signs, face), row) for x in both)
+            one, other = away_from_corners(one, edge), away_from_corners(other, edge)
+            assert one == pytest.approx(other, abs=1e-9)
 
 
 def test_rows_leave_room(medial):

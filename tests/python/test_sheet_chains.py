@@ -15,10 +15,8 @@ def test_chains_follow_their_sheet():
     """A ring of sheet 0, whose edges come in any order, and two edges of sheet 1 that begin at a vertex of it."""
     ends = np.array([(2, 0), (0, 1), (1, 5), (1, 2), (5, 6)])
     chains = chains_of(ends, np.array([0, 0, 1, 0, 1], np.int32))
-    assert [(each.rows.tolist(), each.closed) for each in chains] == [
-        ([2, 4], False),
-        ([0, 1, 3], True),
-    ]
+    found = [(each.rows.tolist(), each.closed) for each in chains]
+    assert found == [([2, 4], False), ([0, 1, 3], True)]
 
 
 def test_chains_end_where_rims_cross():
@@ -36,15 +34,16 @@ def test_runs_of_a_ring_go_over_its_beginning():
 
 
 @pytest.mark.parametrize(
-    ("closed", "nearest"), [(False, [1, 1, 1, 4, 4, 4]), (True, [1, 1, 1, 4, 4, 4])]
+    "some, closed, nearest",
+    [
+        ([1, 4], False, [1, 1, 1, 4, 4, 4]),
+        ([1, 4], True, [1, 1, 1, 4, 4, 4]),
+        ([3, 5], False, [3, 3, 3, 3, 3, 5]),
+        ([3, 5], True, [5, 5, 3, 3, 3, 5]),
+    ],
 )
-def test_the_nearest_along_a_chain(closed, nearest):
-    assert nearest_along(np.ones(6), np.array([1, 4]), closed).tolist() == nearest
-
-
-def test_the_nearest_in_a_ring_may_be_beyond_its_beginning():
-    assert nearest_along(np.ones(6), np.array([3, 5]), closed=True).tolist() == [5, 5, 3, 3, 3, 5]
-    assert nearest_along(np.ones(6), np.array([3, 5]), closed=False).tolist() == [3, 3, 3, 3, 3, 5]
+def test_the_nearest_along_a_chain_may_be_beyond_its_beginning(some, closed, nearest):
+    assert nearest_along(np.ones(6), np.array(some), closed).tolist() == nearest
 
 
 def test_a_straight_stretch_never_goes_back():

@@ -22,9 +22,6 @@ def analysis_of(medial, points, triangles=None, sides="AUTOMATIC", **options):
     )
 
 
-# ---- the rule
-
-
 @pytest.mark.parametrize(
     "triangles, normals, chosen",
     [
@@ -59,14 +56,10 @@ def test_what_is_asked_for_is_used(medial, chosen):
     assert (analysis.side == 0).all() == (chosen == "NONE")
 
 
-# ---- errors
-
-
 def one_sentence(error):
     text = str(error.value)
     assert re.match(r"^Expected .+", text) and "found" in text and "\n" not in text, text
     assert 20 < len(text) < 300, text
-    return text
 
 
 @pytest.mark.parametrize("triangles", [None, np.empty((0, 3), np.int32)])
@@ -132,25 +125,18 @@ def test_sides_of_a_wrong_type(medial, value):
         medial.MedialAnalysis(CLOUD, sides=value)
 
 
-# ---- the constants of Tight Cocone
-
-DEFAULTS = {
-    "cocone_angle": np.pi / 8,
-    "flatness_ratio": 1.2,
-    "flatness_angle": np.pi / 3,
-    "sharp_angle": 2 * np.pi / 3,
-}
-LIMITS = {
-    "cocone_angle": np.pi / 2,
-    "flatness_angle": np.pi / 2,
-    "sharp_angle": np.pi,
-    "flatness_ratio": np.inf,
+# name -> the paper's value, which is the default; the largest one; another one
+OPTIONS = {
+    "cocone_angle": (np.pi / 8, np.pi / 2, 0.02),
+    "flatness_ratio": (1.2, np.inf, 4.0),
+    "flatness_angle": (np.pi / 3, np.pi / 2, 0.02),
+    "sharp_angle": (2 * np.pi / 3, np.pi, 0.2),
 }
 
 
 def test_defaults_are_the_papers(medial):
     options = medial.CoconeOptions()
-    for name, value in DEFAULTS.items():
+    for name, (value, _, _) in OPTIONS.items():
         assert getattr(options, name) == pytest.approx(value, rel=1e-15)
         with pytest.raises(AttributeError):
             setattr(options, name, value)
@@ -158,30 +144,22 @@ def test_defaults_are_the_papers(medial):
         medial.CoconeOptions(np.pi / 8)
 
 
-@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("name", OPTIONS)
 def test_ranges_of_the_options(medial, name):
-    for bad in (0.0, -1e-9, LIMITS[name], np.nan, -np.inf, np.inf):
+    limit = OPTIONS[name][1]
+    for bad in (0.0, -1e-9, limit, np.nan, -np.inf, np.inf):
         with pytest.raises(medial.InvalidInputError, match=name) as error:
             medial.CoconeOptions(**{name: bad})
         one_sentence(error)
-    for good in (1e-9, min(LIMITS[name], 1e9) * 0.999):
+    for good in (1e-9, min(limit, 1e9) * 0.999):
         assert getattr(medial.CoconeOptions(**{name: good}), name) == good
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"cocone_angle": 0.02},
-        {"flatness_ratio": 4.0},
-        {"flatness_angle": 0.02},
-        {"sharp_angle": 0.2},
-    ],
-    ids=lambda options: next(iter(options)),
-)
-def test_every_option_has_an_effect(medial, options):
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_has_an_effect(medial, name):
     """On the surface alone and as an argument of an analysis, alike."""
     points = SHAPES["torus"].random_sample(1500, 0)
-    changed = medial.CoconeOptions(**options)
+    changed = medial.CoconeOptions(**{name: OPTIONS[name][2]})
     plain, other = medial.TightCocone(points), medial.TightCocone(points, options=changed)
     figures = lambda x: (x.flat.tobytes(), x.good.tobytes(), x.triangles.tobytes())
     assert figures(plain) != figures(other)
@@ -194,9 +172,7 @@ def test_normals_say_nothing_beyond_the_samples(medial):
     vertices, triangles = meshes.box((6, 6, 6), (1.0, 0.7, 0.4))
     keep = (vertices[triangles][:, :, 2] < 0.39).any(axis=1)
     samples = medial.sample_surface(vertices, triangles[keep], count=4000)
-    analysis = medial.MedialAnalysis(
-        samples.points, normals=samples.normals, sides=medial.SidesFrom.NORMALS
-    )
+    analysis = analysis_of(medial, samples.points, sides="NORMALS", normals=samples.normals)
     inner = analysis.extract(side=medial.Side.INNER)
     assert len(inner.generators) > 1000
     assert (np.abs(inner.vertices) <= np.abs(samples.points).max(axis=0)).all()

@@ -25,6 +25,7 @@ from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.load_skeleton import load_skeleton
 from medial_axis.core.skeleton.middle import lead_through_middle
+from medial_axis.core.skeleton.mirror import _image
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.skeleton import Skeleton, centre_of_mass
 from medial_axis.core.skeleton.warnings import skeleton_warnings
@@ -32,30 +33,31 @@ from medial_axis.core.skeleton.write_skeleton import export_skeleton
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
-from support import meshes, swept, tubes
-from support.poses import posed, random_turns, turn
+from support import distance, meshes, reference, swept, topology, tubes
+from support.poses import posed, random_turn, random_turns, swapped, turn
 
 pytestmark = pytest.mark.oracle
 
 NO_FACES = np.zeros((0, 3), np.int32)
-NO_STUBS = Stubs(np.zeros(0, np.int32), np.zeros((0, 2)), np.zeros(0, np.int32))
+
+
+def skeleton_of(shape, settings=Settings(), ends=None, **wanted):
+    return compute_skeleton(shape, settings, SkeletonSettings(**wanted), ends=ends)
 
 
 def of_tubes(solid, count, **wanted):
     points = solid.sample(count)
-    shape = Shape(points, NO_FACES, solid.normals(points))
-    return compute_skeleton(shape, Settings(), SkeletonSettings(**wanted))
+    return skeleton_of(Shape(points, NO_FACES, solid.normals(points)), **wanted)
 
 
 def places_of(skeleton, steps=10):
     """Places along all edges, and the radii there."""
     a, b = skeleton.edges.T
     share = np.linspace(0.0, 1.0, steps + 1)
-    along = (
-        [(1 - t) * skeleton.points[a] + t * skeleton.points[b] for t in share],
-        [(1 - t) * skeleton.radius[a] + t * skeleton.radius[b] for t in share],
+    return (
+        np.concatenate([(1 - t) * values[a] + t * values[b] for t in share])
+        for values in (skeleton.points, skeleton.radius)
     )
-    return np.concatenate(along[0]), np.concatenate(along[1])
 
 
 # --- known centre lines
@@ -82,14 +84,9 @@ def test_known_centre_lines(solid, tips, loops, forks):
         true = meeting_points(solid)
         at, which = cKDTree(true).query(found.points[found.degree > 2])
         assert len(set(which)) == forks
-        thinnest = min(solid.radii)
-        assert at.max() < 0.1 * thinnest
-        away_from_forks = cKDTree(true).query(places)[0] > 2.5 * max(solid.radii)
-        places, radii, away = (
-            places[away_from_forks],
-            radii[away_from_forks],
-            away[:, away_from_forks],
-        )
+        assert at.max() < 0.1 * min(solid.radii)
+        beside = cKDTree(true).query(places)[0] > 2.5 * max(solid.radii)
+        radii, away = radii[beside], away[:, beside]
     expected = np.array(solid.radii)[away.argmin(axis=0)]
     assert np.abs(radii / expected - 1).max() < 0.03
 
@@ -101,15 +98,13 @@ def meeting_points(solid):
 
 
 def test_a_shell_has_no_curve():
-    vertices, triangles = meshes.nested_shell(4)
     with pytest.raises(DegenerateInputError, match="closed sheets"):
-        compute_skeleton(Shape(vertices, triangles), Settings(), SkeletonSettings())
+        skeleton_of(Shape(*meshes.nested_shell(4)))
 
 
 def test_a_plate_has_few_ends():
     plate = meshes.box((20, 14, 2), (1.0, 0.7, 0.05))
-    found = compute_skeleton(Shape(*plate), Settings(), SkeletonSettings())
-    assert found.skeleton.tips <= 4
+    assert skeleton_of(Shape(*plate)).skeleton.tips <= 4
 
 
 # --- real meshes
@@ -129,32 +124,28 @@ def test_a_plate_has_few_ends():
     ],
 )
 def test_ends_and_loops_of_real_meshes(data_file, name, tips, loops):
-    shape, _ = read_shape(data_file(name))
-    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
+    found = skeleton_of(read_shape(data_file(name))[0]).skeleton
     assert found.tips in tips and found.loops == loops and found.pieces == 1
 
 
 def limb_ends(shape, found):
     """The vertex of the surface farthest out at each tip of a skeleton, (t, 3), and the tips."""
-    tips = np.flatnonzero(found.degree == 1)
+    tips, radii = ends_of(found)
     ends = []
-    for tip in tips:
-        way = found.points[tip] - found.points.mean(axis=0)
-        near = np.linalg.norm(shape.points - found.points[tip], axis=1) < 2 * found.radius[tip]
-        rows = np.flatnonzero(near)
-        ends.append(shape.points[rows[np.argmax((shape.points[rows] - found.points[tip]) @ way)]])
-    return np.array(ends), found.points[tips]
+    for tip, radius in zip(tips, radii, strict=True):
+        near = shape.points[np.linalg.norm(shape.points - tip, axis=1) < 2 * radius]
+        ends.append(near[np.argmax((near - tip) @ (tip - found.points.mean(axis=0)))])
+    return np.array(ends), tips
 
 
 def test_chosen_ends_of_a_hand_and_no_others(data_file):
     """Five finger tips and the wrist, then fewer; the tips are where they were, and the rest is gone."""
     shape, _ = read_shape(data_file("hand_closed.obj"))
     settings = Settings(sampling=SamplingMode.SURFACE, samples=4000)
-    whole = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
-    ends, tips = limb_ends(shape, whole)
+    ends, tips = limb_ends(shape, skeleton_of(shape, settings).skeleton)
     assert len(ends) == 6
     for chosen in ([0, 1, 2, 3, 4, 5], [0, 2, 5], [1, 4]):
-        found = compute_skeleton(shape, settings, SkeletonSettings(), ends=ends[chosen])
+        found = skeleton_of(shape, settings, ends=ends[chosen])
         points, radii = ends_of(found.skeleton)
         assert len(points) == len(chosen) and found.skeleton.loops == 0
         away = np.linalg.norm(points[:, None] - tips[chosen], axis=2)
@@ -168,8 +159,7 @@ def test_chosen_ends_of_a_hand_and_no_others(data_file):
 def test_ends_that_cannot_be_joined_are_refused(data_file):
     shape, _ = read_shape(data_file("hand_closed.obj"))
     settings = Settings(sampling=SamplingMode.SURFACE, samples=3000)
-    whole = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
-    ends, _ = limb_ends(shape, whole)
+    ends, _ = limb_ends(shape, skeleton_of(shape, settings).skeleton)
     apart = np.linalg.norm(ends[:, None] - ends, axis=2)
     far = ends[list(np.unravel_index(apart.argmax(), apart.shape))]
     middle = shape.points[np.argmin(np.linalg.norm(shape.points - far.mean(axis=0), axis=1))]
@@ -180,20 +170,16 @@ def test_ends_that_cannot_be_joined_are_refused(data_file):
         (np.stack((*far, middle)), "lies between others"),
     ):
         with pytest.raises(InvalidInputError, match=message):
-            compute_skeleton(shape, settings, SkeletonSettings(), ends=wrong)
+            skeleton_of(shape, settings, ends=wrong)
 
 
 def test_loops_are_kept_or_opened_by_choice():
     """A ring with two tails: opened, it has all its length but one edge, and two ends more."""
-    ring = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings()).skeleton
+    ring = skeleton_of(Shape(*meshes.torus())).skeleton
     for loops, count, tips in ((KeptLoops.KEEP, 1, 0), (KeptLoops.OPEN, 0, 2)):
-        found = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings(loops=loops))
-        assert (found.skeleton.loops, found.skeleton.tips, found.skeleton.pieces) == (
-            count,
-            tips,
-            1,
-        )
-        assert found.skeleton.length > 0.9 * ring.length
+        found = skeleton_of(Shape(*meshes.torus()), loops=loops).skeleton
+        assert (found.loops, found.tips, found.pieces) == (count, tips, 1)
+        assert found.length > 0.9 * ring.length
 
 
 def ends_of(skeleton):
@@ -206,12 +192,10 @@ def ends_of(skeleton):
     [
         ("hand_closed.obj", 6, 0, 1.0, True),
         ("spot_low.obj", 8, 0, 1.0, False),  # its mirror image loses an ear at 32,000 samples
-        pytest.param(
-            "dilo.off", 7, 0, 2.0, True, marks=pytest.mark.slow
-        ),  # a leg ends in one or the other of its toes
-        pytest.param(
-            "rocker-arm.off", 3, 1, 1.5, True, marks=pytest.mark.slow
-        ),  # an arm that is cut flat
+        # A leg ends in one or the other of its toes.
+        pytest.param("dilo.off", 7, 0, 2.0, True, marks=pytest.mark.slow),
+        # An arm is cut flat.
+        pytest.param("rocker-arm.off", 3, 1, 1.5, True, marks=pytest.mark.slow),
         pytest.param("knot1.off", 0, 1, 1.0, True, marks=pytest.mark.slow),
     ],
 )
@@ -223,11 +207,10 @@ def test_the_same_ends_at_every_density_and_however_turned(
     first = None
     for samples in (16_000, 32_000, 64_000):
         settings = Settings(sampling=SamplingMode.SURFACE, samples=samples)
-        frame = np.linalg.qr(np.random.default_rng(samples).normal(size=(3, 3)))[0]
         side = -1 if mirrored and samples == 32_000 else 1
-        frame *= side * np.sign(np.linalg.det(frame))
+        frame = side * random_turn(samples)
         turned = Shape(shape.points @ frame.T, shape.triangles[:, ::side])
-        found = compute_skeleton(turned, settings, SkeletonSettings()).skeleton
+        found = skeleton_of(turned, settings).skeleton
         assert (found.tips, found.loops) == (tips, loops)
         points, radii = ends_of(found)
         first = first or (points @ frame, radii)
@@ -240,18 +223,11 @@ def test_the_same_ends_at_every_density_and_however_turned(
 @pytest.mark.parametrize("seed", range(3))
 def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
     """No joint lies in a corner of the solid, a rod of radius 0.2 from -1 to 1."""
-    points, triangles = rod()
-    frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
-    frame *= np.sign(np.linalg.det(frame))
-    shape = Shape(points @ frame.T, triangles)
-    points, _ = ends_of(compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton)
-    points = (points @ frame)[np.argsort((points @ frame)[:, 0])]
+    line, ones, frame = np.linspace((-1, 0, 0), (1, 0, 0), 31), np.ones((31, 1)), random_turn(seed)
+    points, triangles = swept.swept(line, ones * (0.0, 0.2, 0.0), ones * (0.0, 0.0, 0.2), 24)
+    points = ends_of(skeleton_of(Shape(points @ frame.T, triangles)).skeleton)[0] @ frame
+    points = points[np.argsort(points[:, 0])]
     np.testing.assert_allclose(points, [(-0.8, 0, 0), (0.8, 0, 0)], atol=0.1)
-
-
-def rod(around=24, along=31):
-    line, ones = np.linspace((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), along), np.ones((along, 1))
-    return swept.swept(line, ones * (0.0, 0.2, 0.0), ones * (0.0, 0.0, 0.2), around)
 
 
 # --- symmetry
@@ -286,8 +262,7 @@ def test_mirrored_model_mirrored_names():
     named = []
     for sign in (1.0, -1.0):
         shape = Shape(points * (sign, 1, 1), NO_FACES, solid.normals(points) * (sign, 1, 1))
-        skeleton = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
-        bones, bodies = bones_of(skeleton)
+        bones, bodies = bones_of(skeleton_of(shape).skeleton)
         named.append(dict(zip(names_of(bodies, bones.count), bones.tail, strict=True)))
     first, second = named
     assert set(second) == set(first) == {swapped(name) for name in first}
@@ -298,37 +273,26 @@ def test_mirrored_model_mirrored_names():
             np.testing.assert_allclose(second[name], tail, atol=0.1)
 
 
-def swapped(name):
-    return name[:-1] + {"L": "R", "R": "L"}[name[-1]] if name[-2:] in (".L", ".R") else name
-
-
 # --- bones and weights
 
 
-RIGS = {}
+@pytest.fixture(
+    params=["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"], scope="module"
+)
+def rigged(request, data_file):
+    """A shape and its rig."""
+    shape, _ = read_shape(data_file(request.param))
+    return shape, compute_rig(shape, Settings(), SkeletonSettings())
 
 
-def rig_of(data_file, name):
-    """The shape and its rig, which is computed once."""
-    if name not in RIGS:
-        shape, _ = read_shape(data_file(name))
-        RIGS[name] = shape, compute_rig(shape, Settings(), SkeletonSettings())
-    return RIGS[name]
-
-
-RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
-
-
-@pytest.mark.parametrize("name", RIGGED)
-def test_bones_are_few_connected_and_near_the_curve(data_file, name):
-    _, rig = rig_of(data_file, name)
+def test_bones_are_few_connected_and_near_the_curve(rigged):
+    _, rig = rigged
     bones, skeleton = rig.bones, rig.made_of.skeleton
     assert bones.count <= 3 * skeleton.tips + 20 and len(set(rig.names)) == bones.count
-    child = bones.connected
+    child, forks = bones.connected, np.flatnonzero(skeleton.degree > 2)
     np.testing.assert_array_equal(bones.head[child], bones.tail[bones.parent[child]])
     assert (bones.parent < np.arange(bones.count)).all()
-    forks = skeleton.radius[skeleton.degree > 2]
-    assert bones.head_radius[0] >= 0.9 * forks.max()
+    assert bones.head_radius[0] >= 0.9 * skeleton.radius[forks].max()
     share = np.linspace(0, 1, 200)[:, None, None]
     along = ((1 - share) * bones.head + share * bones.tail).reshape(-1, 3)
     away = cKDTree(along).query(skeleton.points)[0]
@@ -336,7 +300,6 @@ def test_bones_are_few_connected_and_near_the_curve(data_file, name):
     thin = np.zeros(len(skeleton.points))
     for rows in skeleton.branches:
         thin[rows] = np.maximum(thin[rows], skeleton.radius[rows].mean() / 2)
-    forks = np.flatnonzero(skeleton.degree > 2)
     gaps = np.linalg.norm(skeleton.points[:, None] - skeleton.points[forks], axis=2)
     aside = (gaps > 1.5 * skeleton.radius[forks]).all(axis=1)
     assert aside.any()
@@ -346,23 +309,8 @@ def test_bones_are_few_connected_and_near_the_curve(data_file, name):
 
 def weights_along(along, radius):
     """(k, 3) the weights of the root and of two bones in line, each half of a branch, at shares of that branch."""
-    head = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    two = np.zeros((3, 2))
-    two[1:] = (0.0, 0.5), (0.5, 1.0)
-    bones = Bones(
-        head=head,
-        tail=head + np.array((0.0, 0.0, 1.0)),
-        head_radius=np.full(3, radius),
-        tail_radius=np.full(3, radius),
-        up=np.tile((1.0, 0.0, 0.0), (3, 1)),
-        parent=np.array([-1, 0, 1], np.int32),
-        connected=np.array([False, True, True]),
-        branch=np.array([-1, 0, 0], np.int32),
-        along=two,
-        chain=np.array([0, 1, 1], np.int32),
-        to_tip=np.array([False, True, True]),
-        stubs=NO_STUBS,
-    )
+    shares = [(0.0, 0.0), (0.0, 0.5), (0.5, 1.0)]
+    bones = bones_in_a_row((0, 0, 1), -1.0, radius, (1, 0, 0), [-1, 0, 0], shares, [0, 1, 1])
     along = np.asarray(along)
     places = Places(np.zeros(len(along), np.int32), along)
     points = np.column_stack((np.zeros((len(along), 2)), 2.0 * along))
@@ -370,6 +318,26 @@ def weights_along(along, radius):
     found = np.zeros((len(along), 4))
     np.put_along_axis(found, bone.astype(np.int64), weight, axis=1)
     return found[:, :3]
+
+
+def bones_in_a_row(way, start, radius, up, branch, along, chain):
+    """Bones of length 1 from a place on an axis, of which each is the parent of the next one."""
+    count = len(chain)
+    head = np.outer(start + np.arange(count), way)
+    return Bones(
+        head=head,
+        tail=head + way,
+        head_radius=np.full(count, radius),
+        tail_radius=np.full(count, radius),
+        up=np.tile(np.array(up, float), (count, 1)),
+        parent=np.arange(-1, count - 1, dtype=np.int32),
+        connected=np.arange(count) > 0,
+        branch=np.array(branch, np.int32),
+        along=np.array(along),
+        chain=np.array(chain, np.int32),
+        to_tip=np.arange(count) > 0,
+        stubs=Stubs(np.zeros(0, np.int32), np.zeros((0, 2)), np.zeros(0, np.int32)),
+    )
 
 
 def test_two_thick_bones_share_at_most_half_of_each():
@@ -403,20 +371,8 @@ def test_a_limb_leaves_to_its_parent_what_it_loses():
     rows = np.arange(40)
     chain = (x > 0.0).astype(np.int64)
     weight = np.column_stack((chain == 0, chain == 1)).astype(float)
-    bones = Bones(
-        head=np.array([(-1.0, 0, 0), (0, 0, 0)]),
-        tail=np.array([(0.0, 0, 0), (1, 0, 0)]),
-        head_radius=np.full(2, 0.4),
-        tail_radius=np.full(2, 0.4),
-        up=np.tile((0.0, 0.0, 1.0), (2, 1)),
-        parent=np.array([-1, 0], np.int32),
-        connected=np.array([False, True]),
-        branch=np.array([0, 1], np.int32),
-        along=np.array([(0.0, 1.0)] * 2),
-        chain=np.array([0, 1], np.int32),
-        to_tip=np.array([False, True]),
-        stubs=NO_STUBS,
-    )
+    shares = [(0.0, 1.0), (0.0, 1.0)]
+    bones = bones_in_a_row((1, 0, 0), -1.0, 0.4, (0, 0, 1), [0, 1], shares, [0, 1])
     edges = np.column_stack((rows, rows + 1)).astype(np.int32)
     _share_with_parents(weight, chain, bones, vertices, edges)
     np.testing.assert_allclose(weight.sum(axis=1), 1.0)
@@ -424,9 +380,8 @@ def test_a_limb_leaves_to_its_parent_what_it_loses():
     assert limb[0] < 0.1 and (np.diff(limb) >= 0.0).all() and limb[-1] == 1.0
 
 
-@pytest.mark.parametrize("name", RIGGED)
-def test_weights_hold(data_file, name):
-    shape, rig = rig_of(data_file, name)
+def test_weights_hold(rigged):
+    shape, rig = rigged
     assert rig.bone.shape == rig.weight.shape == (len(shape.points), 4)
     assert (rig.weight >= 0).all() and (rig.weight[:, 0] > 0).all()
     np.testing.assert_allclose(rig.weight.sum(axis=1), 1.0)
@@ -441,10 +396,9 @@ def limbs_of(rig):
         yield np.flatnonzero(bones.chain == chain), mine == chain
 
 
-@pytest.mark.parametrize("name", RIGGED)
-def test_a_bent_limb_moves_no_other_one(data_file, name):
+def test_a_bent_limb_moves_no_other_one(rigged):
     """Next to the rim of a limb the skin of another one moves by 2 % of the size at most; 1.7 % were measured."""
-    shape, rig = rig_of(data_file, name)
+    shape, rig = rigged
     limbs = list(limbs_of(rig))
     size = np.linalg.norm(np.ptp(shape.points, axis=0))
     for rows, here in limbs:
@@ -459,41 +413,32 @@ def test_a_bent_limb_moves_no_other_one(data_file, name):
                         assert far[there].max() <= 0.02 * size
 
 
-@pytest.mark.parametrize("name", RIGGED)
-def test_no_vertex_flies_away(data_file, name):
+def test_no_vertex_flies_away(rigged):
     """In twenty poses no edge of the surface grows by more than 7 % of the size; 5.0 % were measured."""
-    shape, rig = rig_of(data_file, name)
+    shape, rig = rigged
     edges = edges_of(shape.triangles)
     size = np.linalg.norm(np.ptp(shape.points, axis=0))
-    a, b = shape.points[edges[:, 0]], shape.points[edges[:, 1]]
+    lengths = lambda points: np.linalg.norm(np.subtract(*points[edges.T]), axis=1)
     for seed in range(20):
         found = posed(rig, shape.points, random_turns(rig.bones, seed))
-        longer = np.linalg.norm(found[edges[:, 0]] - found[edges[:, 1]], axis=1)
-        assert (longer - np.linalg.norm(a - b, axis=1)).max() < 0.07 * size
+        assert (lengths(found) - lengths(shape.points)).max() < 0.07 * size
 
 
-@pytest.mark.parametrize("name", RIGGED)
-def test_little_skin_folds_in_a_bend(data_file, name):
+def test_little_skin_folds_in_a_bend(rigged):
     """When one bone turns by 40 degrees, up to 1.0 % of the surface folds; in the mean it is 0.04 % at most."""
-    shape, rig = rig_of(data_file, name)
-    across, folded = normals(shape.points, shape.triangles), []
+    shape, rig = rigged
+    across, folded = topology.vector_areas(shape.points, shape.triangles), []
     area = np.linalg.norm(across, axis=1)
     for bone in np.flatnonzero(rig.bones.parent >= 0):
         hinge = np.cross(rig.bones.tail[bone] - rig.bones.head[bone], rig.bones.up[bone])
-        for angle in (-40, 40):
-            moved = posed(rig, shape.points, {bone: turn(hinge, np.radians(angle))})
-            follows = (rig.weight * (rig.bone == bone)).sum(axis=1)[shape.triangles].mean(axis=1)
-            here = normals(moved, shape.triangles)
-            with_bone = across @ turn(hinge, np.radians(angle)).T
-            way = across + follows[:, None] * (with_bone - across)
-            inner = follows > 0.0
-            folded.append(area[inner & ((way * here).sum(axis=1) < 0.0)].sum() / area.sum())
+        follows = (rig.weight * (rig.bone == bone)).sum(axis=1)[shape.triangles].mean(axis=1)
+        for angle in np.radians((-40, 40)):
+            bend = turn(hinge, angle)
+            here = topology.vector_areas(posed(rig, shape.points, {bone: bend}), shape.triangles)
+            way = across + follows[:, None] * (across @ bend.T - across)
+            turned = (follows > 0.0) & ((way * here).sum(axis=1) < 0.0)
+            folded.append(area[turned].sum() / area.sum())
     assert max(folded) < 0.03 and np.mean(folded) < 0.002
-
-
-def normals(points, triangles):
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    return np.cross(b - a, c - a)
 
 
 # --- files
@@ -501,9 +446,7 @@ def normals(points, triangles):
 
 @pytest.fixture(scope="module")
 def two_rings_and_a_y():
-    return of_tubes(tubes.y_of_tubes(), 1500), compute_skeleton(
-        Shape(*meshes.torus()), Settings(), SkeletonSettings()
-    )
+    return of_tubes(tubes.y_of_tubes(), 1500), skeleton_of(Shape(*meshes.torus()))
 
 
 def test_json_has_everything(two_rings_and_a_y, tmp_path):
@@ -520,40 +463,35 @@ def test_json_has_everything(two_rings_and_a_y, tmp_path):
 def test_swc_is_a_tree_of_all_points(two_rings_and_a_y, tmp_path):
     for found in two_rings_and_a_y:
         path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.swc")
-        lines = path.read_text().splitlines()
-        table = np.array([line.split() for line in lines if line[0] != "#"], float)
+        table = np.loadtxt(path)
         assert len(table) == len(found.skeleton.points)
         assert (table[:, 6] < table[:, 0]).all() and (table[:, 6] == -1).sum() == 1
-        np.testing.assert_array_equal(
-            np.sort(table[:, 2:6], axis=0),
-            np.sort(np.column_stack((found.skeleton.points, found.skeleton.radius)), axis=0),
-        )
-        closing = [line for line in lines if "closes a loop" in line]
+        balls = np.column_stack((found.skeleton.points, found.skeleton.radius))
+        np.testing.assert_array_equal(np.sort(table[:, 2:6], axis=0), np.sort(balls, axis=0))
+        closing = [line for line in path.read_text().splitlines() if "closes a loop" in line]
         assert len(closing) == found.skeleton.loops
 
 
 def test_command_line(tmp_path, capsys):
-    vertices, triangles = meshes.torus()
-    source, target = tmp_path / "ring.npz", tmp_path / "ring.json"
-    np.savez(source, points=vertices, triangles=triangles)
-    assert main(["skeleton", str(source), str(target), "--detail", "0.4"]) == 0
+    source, target = str(tmp_path / "ring.npz"), str(tmp_path / "ring.json")
+    np.savez(source, **dict(zip(("points", "triangles"), meshes.torus())))
+    assert main(["skeleton", source, target, "--detail", "0.4"]) == 0
     assert "1 branches, 0 ends, 1 loops" in capsys.readouterr().out
-    assert len(json.loads(target.read_text())["parts"]) == 1
-    assert main(["skeleton", str(source), str(tmp_path / "ring.fbx")]) == 2
-    assert main(["skeleton", str(tmp_path / "no.obj"), str(target)]) == 3
-    assert main(["skeleton", str(source), str(target), "--detail", "2"]) == 2
-    assert main(["skeleton", str(source), str(target), "--loops", "open"]) == 0
+    assert len(json.loads((tmp_path / "ring.json").read_text())["parts"]) == 1
+    assert main(["skeleton", source, str(tmp_path / "ring.fbx")]) == 2
+    assert main(["skeleton", str(tmp_path / "no.obj"), target]) == 3
+    assert main(["skeleton", source, target, "--detail", "2"]) == 2
+    assert main(["skeleton", source, target, "--loops", "open"]) == 0
     assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
 
 
 def test_command_line_takes_ends(tmp_path, capsys):
     """Two tips of a Y are joined by one branch; other ends are other work; nonsense is refused."""
     solid = tubes.y_of_tubes()
-    tips = [line[-1] for line in solid.lines[:2]]
     words = ["skeleton", str(tmp_path / "y.npz"), str(tmp_path / "y.json")]
     points = solid.sample(1500)
     np.savez(words[1], points=points, normals=solid.normals(points))
-    ends = [f"--end={','.join(map(str, tip))}" for tip in tips]
+    ends = [f"--end={','.join(map(str, line[-1]))}" for line in solid.lines[:2]]
     assert main([*words, *ends]) == 0
     assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
     assert main(words) == 0
@@ -566,8 +504,7 @@ def test_command_line_takes_ends(tmp_path, capsys):
 
 def test_json_is_read_back(two_rings_and_a_y, tmp_path):
     for found in two_rings_and_a_y:
-        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
-        back = load_skeleton(path)
+        back = load_skeleton(export_skeleton(found.skeleton, found.parts, tmp_path / "a.json"))
         for name in ("points", "radius", "branch_offsets", "branch_points", "nodes"):
             np.testing.assert_array_equal(getattr(back, name), getattr(found.skeleton, name))
 
@@ -600,7 +537,7 @@ def test_spread_is_dijkstras():
     edges = edges[edges[:, 0] != edges[:, 1]]
     seeds = np.array([3, 50, 120])
     label, distance = spread(graph_of(points, edges), seeds, np.arange(3))
-    length = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+    length = np.linalg.norm(np.subtract(*points[edges.T]), axis=1)
     graph = coo_array((length, edges.T), shape=(300, 300)).tocsr()
     away = dijkstra(graph, directed=False, indices=seeds)
     np.testing.assert_allclose(distance, away.min(axis=0))
@@ -614,9 +551,8 @@ def test_nearest_is_that_of_a_tree():
     others = rng.normal(size=(2000, 3)) ** 3
     points = rng.normal(size=(500, 3)) * 4
     row = nearest(points, others)
-    np.testing.assert_allclose(
-        np.linalg.norm(points - others[row], axis=1), cKDTree(others).query(points)[0]
-    )
+    away = np.linalg.norm(points - others[row], axis=1)
+    np.testing.assert_allclose(away, cKDTree(others).query(points)[0])
     assert nearest(points[:3], others[:1]).tolist() == [0, 0, 0]
     assert nearest(np.zeros((2, 3)), np.zeros((5, 3))).tolist() == [0, 0]
 
@@ -634,32 +570,35 @@ def test_chains_within_their_tolerance():
     assert len(kept_points(ring, np.full(300, 10.0))) == 4
 
 
-def net_of(points, wires, radius, load=None):
-    points, wires = np.array(points, float), np.array(wires, np.int32)
+def net_of(points, wires=None, radius=0.1, load=None):
+    """A net of edges, by default those between points that follow each other."""
+    row = np.arange(len(points))
+    points = np.array(points, float)
+    wires = np.array(np.column_stack((row[:-1], row[1:])) if wires is None else wires, np.int32)
     radius = np.broadcast_to(np.asarray(radius, float), len(points))
     load = np.full(len(points), 1 / len(points)) if load is None else np.asarray(load, float)
     return Net(points, radius, wires, np.zeros(0, np.int32), load)
 
 
-def ladder():
-    """A large loop, and a rung whose middle is thin."""
+def ladder(middle):
+    """A large loop, and a rung whose middle has this radius."""
     points = [(0, 0, 0), (4, 0, 0), (4, 2, 0), (4, 4, 0), (0, 4, 0), (0, 2, 0), (2, 2, 0)]
     wires = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (2, 6), (6, 5)]
-    return points, wires
+    return net_of(points, wires, [0.5] * 6 + [middle])
 
 
 def test_thin_loops_are_cut_and_others_stay():
-    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    net = ladder(0.01)
     assert clear_loops(net, np.full(7, 0.1)).cut == 1
     assert len(net.branches) == 1 and not net.tips() and net.load.sum() == pytest.approx(1.0)
-    net = net_of(*ladder(), [0.5] * 7)
+    net = ladder(0.5)
     loops = clear_loops(net, np.full(7, 0.1))
     assert (loops.cut, loops.filled, len(net.branches)) == (0, 0, 3)
 
 
 def test_loops_open_at_their_thinnest_edge():
     """Two loops that share a rung are both opened, every point stays, and nothing comes apart."""
-    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    net = ladder(0.01)
     rows = {row for chain in net.branches.values() for row in chain}
     loops, tips = net.loops(), len(net.tips())
     open_loops(net)
@@ -669,9 +608,9 @@ def test_loops_open_at_their_thinnest_edge():
 
 def test_an_end_where_a_limb_forks_once_more():
     """The end is the fork of two leaves that go, and stays a node between the first and the second."""
-    wires = np.array([(0, 1), (1, 2), (2, 3), (2, 4)])
-    points = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 1, 0), (3, -1, 0)], float)
-    net = net_of(points, wires, np.full(5, 0.1), np.full(5, 1.0))
+    wires = [(0, 1), (1, 2), (2, 3), (2, 4)]
+    points = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 1, 0), (3, -1, 0)]
+    net = net_of(points, wires, load=np.ones(5))
     assert join_ends(net, np.array([0, 2])) == [0]
     assert list(map(sorted, net.branches.values())) == [[0, 1, 2]] and net.load[2] == 3.0
 
@@ -679,8 +618,8 @@ def test_an_end_where_a_limb_forks_once_more():
 def test_hanging_loops_join_no_ends():
     """A chain from 0 to 3 with a ring on a stalk and a leaf: only the chain is left, and owns all."""
     points = np.column_stack((np.arange(9.0), np.zeros((9, 2))))
-    wires = np.array([(0, 1), (1, 2), (2, 3), (1, 4), (4, 5), (5, 6), (6, 4), (2, 7)])
-    net = net_of(points, wires, np.full(9, 0.1), np.full(9, 1.0))
+    wires = [(0, 1), (1, 2), (2, 3), (1, 4), (4, 5), (5, 6), (6, 4), (2, 7)]
+    net = net_of(points, wires, load=np.ones(9))
     assert join_ends(net, np.array([0, 3])) == [0, 3]
     assert sorted(map(sorted, net.branches.values())) == [[0, 1, 2, 3]]
     assert net.load.sum() == 9.0 and net.load[:4].sum() == 8.0
@@ -688,9 +627,8 @@ def test_hanging_loops_join_no_ends():
 
 def test_loops_of_closed_faces_stay():
     """The samples of a thin ring are as far apart as it is thick."""
-    points, triangles = meshes.torus(1.0, 0.04, 160, 24)
     settings = Settings(sampling=SamplingMode.SURFACE, samples=2_000)
-    found = compute_skeleton(Shape(points, triangles), settings, SkeletonSettings())
+    found = skeleton_of(Shape(*meshes.torus(1.0, 0.04, 160, 24)), settings)
     assert found.chosen.samples.by_faces == (1, 1, 0)
     assert (found.loops.cut, found.loops.filled) == (0, 0)
     assert len(found.skeleton.edges) == len(np.unique(found.skeleton.edges))
@@ -704,15 +642,13 @@ def test_pinholes_are_filled():
     assert clear_loops(net, np.full(6, 0.1)).filled == 1
     assert len(net.branches) == 1 and len(net.tips()) == 2
     assert net.load.sum() == pytest.approx(1.0)
-    stands_for = net.stands_for()
     (chain,) = net.branches.values()
-    assert set(stands_for[[1, 2]]) <= set(chain)
+    assert set(net.stands_for()[[1, 2]]) <= set(chain)
 
 
 def test_limbs_stay_and_ridges_go():
     points = [(0, 0, 0), (-3, 0, 0), (3, 0, 0), (0, 3, 0), (0, -0.6, 0)]
-    wires = [(0, 1), (0, 2), (0, 3), (0, 4)]
-    load = [0.5, 0.15, 0.15, 0.15, 0.05]
+    wires, load = [(0, 1), (0, 2), (0, 3), (0, 4)], [0.5, 0.15, 0.15, 0.15, 0.05]
     net = net_of(points, wires, [1.0, 0.5, 0.5, 0.5, 0.5], load)
     none = np.zeros(0, np.int64)
     balls = balls_of(none, np.zeros((0, 3)), np.zeros(0), none, 5)
@@ -731,8 +667,6 @@ def test_each_point_of_a_chain_has_its_own_tolerance(tolerance, kept):
 
 
 def test_an_image_is_as_far_behind_the_plane():
-    from medial_axis.core.skeleton.mirror import _image
-
     assert _image(np.array([(1.0, 2.0, 3.0)]), 5.0).tolist() == [[9.0, 2.0, 3.0]]
 
 
@@ -740,37 +674,7 @@ def test_an_image_is_as_far_behind_the_plane():
 
 
 def distance_to_faces(places, shape):
-    """The distance of each place from the nearest triangle, by brute force over dense points of it and its plane."""
-    a, b, c = (shape.points[column] for column in shape.triangles.T)
-    found = np.full(len(places), np.inf)
-    normal = np.cross(b - a, c - a)
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    for i, place in enumerate(places):
-        height = np.einsum("ij,ij->i", place - a, normal)
-        foot = place - height[:, None] * normal
-        sides = [
-            np.einsum("ij,ij->i", np.cross(q - p, foot - p), normal)
-            for p, q in ((a, b), (b, c), (c, a))
-        ]
-        over = np.minimum.reduce(sides) >= 0
-        found[i] = np.abs(height[over]).min(initial=np.inf)
-        for p, q in ((a, b), (b, c), (c, a)):
-            share = np.einsum("ij,ij->i", place - p, q - p) / np.einsum("ij,ij->i", q - p, q - p)
-            away = place - p - np.clip(share, 0, 1)[:, None] * (q - p)
-            found[i] = min(found[i], np.sqrt(np.einsum("ij,ij->i", away, away).min()))
-    return found
-
-
-def windings(places, shape):
-    """The winding number at each place, by the solid angles of all triangles (van Oosterom and Strackee, 1983)."""
-    found = []
-    for place in places:
-        a, b, c = (shape.points[column] - place for column in shape.triangles.T)
-        la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
-        dot = [np.einsum("ij,ij->i", *pair) for pair in ((a, b), (b, c), (c, a))]
-        below = la * lb * lc + dot[0] * lc + dot[1] * la + dot[2] * lb
-        found.append(np.arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), below).sum())
-    return np.array(found) / (2 * np.pi)
+    return distance.to_triangles(places, shape.points[shape.triangles])
 
 
 @pytest.mark.parametrize(
@@ -778,43 +682,47 @@ def windings(places, shape):
 )
 def test_radii_are_of_the_ball_that_fits_and_lines_stay_inside(data_file, name):
     shape, _ = read_shape(data_file(name))
-    found = compute_skeleton(shape, Settings(), SkeletonSettings(mirror=False)).skeleton
+    found = skeleton_of(shape, mirror=False).skeleton
     np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
     places, _ = places_of(found, steps=4)
-    assert windings(places, shape).min() > 0.5
+    assert reference.winding_number(places, shape.points, shape.triangles).min() > 0.5
 
 
 def test_lines_are_in_the_middle_of_a_body(data_file):
     """A ball that touches the surface where it is nearest hardly grows; 15 % had room before."""
     shape, _ = read_shape(data_file("spot_low.obj"))
-    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
-    places, _ = places_of(found, steps=3)
+    places, _ = places_of(skeleton_of(shape).skeleton, steps=3)
     room = distance_to_faces(places, shape)
-    steps = 1e-3 * np.mean(room) * np.eye(3)
-    grown = [
-        distance_to_faces(places + s, shape) - distance_to_faces(places - s, shape) for s in steps
+    way = [
+        distance_to_faces(places + step, shape) - distance_to_faces(places - step, shape)
+        for step in 1e-3 * np.mean(room) * np.eye(3)
     ]
-    way = np.array(grown).T
-    way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
+    way = np.transpose(way) / np.maximum(np.linalg.norm(way, axis=0), 1e-300)[:, None]
     larger = distance_to_faces(places + 0.05 * room[:, None] * way, shape) > 1.049 * room
     assert larger.mean() < 0.05
 
 
-class Between:
+def to_walls(places):
     """The distance from a bent wall: the solid is between two circles round the origin, of radii 0.9 and 1.1."""
+    away = np.linalg.norm(places, axis=1)
+    return np.minimum(np.abs(away - 0.9), np.abs(away - 1.1))
 
-    def __call__(self, places):
-        away = np.linalg.norm(places, axis=1)
-        return np.minimum(np.abs(away - 0.9), np.abs(away - 1.1))
+
+def arc(turn, away=1.0):
+    """(n, 3) places at angles round the origin."""
+    return np.column_stack((away * np.cos(turn), away * np.sin(turn), 0 * turn))
+
+
+def net_in_wall(points):
+    return net_of(points, radius=to_walls(points), load=np.ones(len(points)))
 
 
 def test_points_move_to_the_middle_between_walls():
     """Points beside the circle between the walls, and jagged: they move onto it; both ends stay."""
-    turn = np.linspace(0.0, np.pi, 61)
     away = 1.0 + 0.03 * np.where(np.arange(61) % 2, 1.0, 0.4)
-    net = straight_net(np.column_stack((away * np.cos(turn), away * np.sin(turn), 0 * turn)))
+    net = net_in_wall(arc(np.linspace(0.0, np.pi, 61), away))
     ends = net.points[[0, -1]].copy()
-    lead_through_middle(net, Between())
+    lead_through_middle(net, to_walls)
     assert np.array_equal(net.points[[0, -1]], ends)
     inner = net.points[1:-1]
     np.testing.assert_allclose(np.linalg.norm(inner, axis=1), 1.0, atol=2e-4)
@@ -826,11 +734,8 @@ def test_points_move_to_the_middle_between_walls():
 @pytest.mark.parametrize("count", [9, 40])
 def test_a_chord_that_leaves_gets_points(count):
     """Points are on the circle between the walls; too few of them cut through the inner one."""
-    turn = np.linspace(0.0, np.pi, count)
-    points = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(count)))
-    wires = np.column_stack((np.arange(count - 1), np.arange(1, count))).astype(np.int32)
-    net = Net(points, np.full(count, 0.1), wires, np.zeros(0, np.int32), np.ones(count))
-    assert keep_inside(net, Between()) == 0
+    net = net_of(arc(np.linspace(0.0, np.pi, count)), load=np.ones(count))
+    assert keep_inside(net, to_walls) == 0
     chain = net.points[net.branches[0]]
     share = np.linspace(0, 1, 50)[:, None, None]
     away = np.linalg.norm((1 - share) * chain[:-1] + share * chain[1:], axis=2)
@@ -838,18 +743,10 @@ def test_a_chord_that_leaves_gets_points(count):
     assert count < 40 or len(chain) == count
 
 
-def straight_net(points):
-    wires = np.column_stack((np.arange(len(points) - 1), np.arange(1, len(points)))).astype(
-        np.int32
-    )
-    room = Between()(points)
-    return Net(points, room, wires, np.zeros(0, np.int32), np.ones(len(points)))
-
-
 def test_edges_that_no_ball_mends_are_counted():
     """A way straight through the hollow and one that is inside: the one is told of, the other is not."""
-    net = straight_net(np.array([(-1.0, 0, 0), (1.0, 0, 0), (1.0, 0.01, 0)]))
-    assert keep_inside(net, Between()) == 1
+    net = net_in_wall(np.array([(-1.0, 0, 0), (1.0, 0, 0), (1.0, 0.01, 0)]))
+    assert keep_inside(net, to_walls) == 1
     assert not skeleton_warnings(Loops(0, 0), 0, 0)
     (sentence,) = skeleton_warnings(Loops(0, 0), 0, 1)
     assert sentence.startswith("1 edges of the skeleton leave the solid")
@@ -859,10 +756,9 @@ def test_edges_that_no_ball_mends_are_counted():
 def test_a_tip_beyond_a_crease_is_reached_from_an_earlier_point(way):
     """The line runs past the place below its tip, and from its last point only a way through the hollow leads there."""
     turn, high = np.append(np.linspace(0.0, np.pi, 40), 1.7), np.append(np.zeros(40), 0.6)
-    along = np.cos(high)
-    points = np.column_stack((along * np.cos(turn), along * np.sin(turn), np.sin(high)))
-    net = straight_net(points[::way])
-    assert keep_inside(net, Between()) == 0
+    points = arc(turn, np.cos(high)) + np.outer(np.sin(high), (0, 0, 1))
+    net = net_in_wall(points[::way])
+    assert keep_inside(net, to_walls) == 0
     (chain,) = net.branches.values()
     last, before = net.points[chain[::way]][[-1, -2]]
     assert np.array_equal(last, points[-1]) and before[2] == 0.0
@@ -873,21 +769,18 @@ def test_a_tip_beyond_a_crease_is_reached_from_an_earlier_point(way):
 def test_edges_that_stay_inside_are_measured_once():
     asked = []
 
-    class Asked(Between):
-        def __call__(self, places):
-            asked.extend(map(tuple, places.tolist()))
-            return super().__call__(places)
+    def told(places):
+        asked.extend(map(tuple, places.tolist()))
+        return to_walls(places)
 
-    turn = np.array([0.0, 0.25, 1.4])  # the second step cuts through the inner wall
-    net = straight_net(np.column_stack((np.cos(turn), np.sin(turn), 0 * turn)))
+    net = net_in_wall(arc(np.array([0.0, 0.25, 1.4])))  # the second step cuts through the wall
     middle = tuple(net.points[:2].mean(axis=0).tolist())
-    assert keep_inside(net, Asked()) == 1
+    assert keep_inside(net, told) == 1
     assert asked.count(middle) == 1
 
 
 def test_thinning_keeps_the_points_that_a_chord_needs():
-    turn = np.linspace(0.0, np.pi, 65)
-    points = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(65)))
-    kept = kept_inside(points, np.full(65, 0.1), np.array([0, 64]), Between())
+    points = arc(np.linspace(0.0, np.pi, 65))
+    kept = kept_inside(points, np.full(65, 0.1), np.array([0, 64]), to_walls)
     middles = (points[kept[:-1]] + points[kept[1:]]) / 2
     assert 4 < len(kept) < 65 and np.linalg.norm(middles, axis=1).min() > 0.9

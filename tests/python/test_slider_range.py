@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The ranges of sliders: half of what can go goes at one half, and lengths and shares are one curve."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute, extract_axis
@@ -49,22 +51,18 @@ def test_areas_are_those_of_polygons():
 
 
 def test_sliders_of_a_box_act_from_end_to_end():
-    points, triangles = box()
-    settings = Settings(sampling=SamplingMode.SURFACE, samples=2000, mesh=Mesh.VORONOI)
-    computation = compute(points, triangles, settings)
-    ranges = computation.axis.level.ranges
-    whole = computation.axis.facets
-    erode = ranges["erode"]
-    half, none = (
-        extract_axis(computation, Settings(**kept(erode=erode.length(share)), mesh=Mesh.VORONOI))
-        for share in (0.5, 1.0)
-    )
-    assert 0.3 * whole < half.facets < 0.7 * whole and none.facets == 0
-    bare = extract_axis(computation, Settings(**kept(simplify=ranges["simplify"].length(1.0))))
-    assert bare.facets == 0
-    curve = extract_axis(
-        computation, Settings(**kept(form=Form.CURVE, limb=ranges["limb"].length(1.0)))
-    )
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=2000)
+    computation = compute(*box(), replace(settings, mesh=Mesh.VORONOI))
+    ranges, whole = computation.axis.level.ranges, computation.axis.facets
+
+    def moved(slider, share, **changed):
+        changed[slider] = ranges[slider].length(share)
+        return extract_axis(computation, replace(settings, **changed))
+
+    assert 0.3 * whole < moved("erode", 0.5, mesh=Mesh.VORONOI).facets < 0.7 * whole
+    assert moved("erode", 1.0, mesh=Mesh.VORONOI).facets == 0
+    assert moved("simplify", 1.0).facets == 0
+    curve = moved("limb", 1.0, form=Form.CURVE)
     assert len(curve.edges) == 0 or np.isinf(curve.level.limb).all()
 
 
@@ -75,7 +73,3 @@ def test_a_branch_counts_by_its_length_squared():
     points[:, 0] *= 3.0
     found = compute(points, triangles, Settings(form=Form.CURVE)).axis.level.ranges["limb"]
     assert found.share(0.05 * found.lengths[-1]) < 0.5
-
-
-def kept(**changed):
-    return {"sampling": SamplingMode.SURFACE, "samples": 2000, **changed}

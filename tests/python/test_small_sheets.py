@@ -4,31 +4,24 @@
 from dataclasses import replace
 from functools import cache
 
+import medial_axis
 import numpy as np
 import pytest
 from medial_axis.core.axis.polygon_triangles import axis_triangles
+from medial_axis.core.files.read_ma import read_ma
+from medial_axis.core.files.write import export_axis
 from medial_axis.core.rebuild.reduce import reduce_axis
 from support import crisp_solids
+from support.measure import polygons
 from test_reduce import NO_EDGES, betti, grid
 
 pytestmark = pytest.mark.oracle
 
-SAMPLES = 4000
-
 
 @cache
 def computed(name):
-    import medial_axis
-
-    points, triangles = crisp_solids.solid(name).mesh
-    return medial_axis.compute(
-        points, triangles.astype(np.int32), sampling="surface", samples=SAMPLES
-    ).axis
-
-
-def polygons(axis):
-    ends = axis.face_offsets[1:-1]
-    return [corners.tolist() for corners in np.split(axis.face_vertices, ends)]
+    mesh = crisp_solids.solid(name).mesh
+    return medial_axis.compute(*mesh, sampling="surface", samples=4000).axis
 
 
 def betti_of(axis):
@@ -57,7 +50,7 @@ def test_topology_nodes_and_valid_polygons(name, wanted):
     assert betti_of(small) == tuple(whole.level.betti)
     nodes = set(map(tuple, whole.vertices[whole.structure.node_vertex].tolist()))
     assert nodes <= set(map(tuple, small.vertices.tolist()))
-    faces = polygons(small)
+    faces = [corners.tolist() for corners in polygons(small)]
     assert all(len(set(face)) == len(face) for face in faces)
     assert len({tuple(sorted(face)) for face in faces}) == len(faces)
 
@@ -65,13 +58,10 @@ def test_topology_nodes_and_valid_polygons(name, wanted):
 @pytest.mark.parametrize(("name", "wanted"), [("box", 3), ("bracket", 40)])
 def test_an_axis_stored_in_single_precision_becomes_the_same_mesh(name, wanted):
     whole = computed(name)
-    level = replace(whole.level, exact=whole.level.exact.astype(np.float32).astype(float))
-    stored = replace(
-        whole,
-        vertices=whole.vertices.astype(np.float32).astype(float),
-        radius=whole.radius.astype(np.float32).astype(float),
-        level=level,
-    )
+    single = lambda values: values.astype(np.float32).astype(float)
+    level = replace(whole.level, exact=single(whole.level.exact))
+    places, radius = single(whole.vertices), single(whole.radius)
+    stored = replace(whole, vertices=places, radius=radius, level=level)
     one, two = reduce_axis(whole, wanted), reduce_axis(stored, wanted)
     assert np.array_equal(one.face_vertices, two.face_vertices)
     assert np.array_equal(one.face_offsets, two.face_offsets)
@@ -105,8 +95,7 @@ def test_a_concave_sheet_is_one_polygon_and_a_sheet_with_a_hole_two(medial):
         used, rows = np.unique(triangles[kept], return_inverse=True)
         left = rows.reshape(-1, 3).astype(np.int32)
         mesh = (vertices[used], radius[used], left, NO_EDGES)
-        part = np.zeros(len(left))
-        found = sheets(medial, mesh, part, [], 20)
+        found = sheets(medial, mesh, np.zeros(len(left)), [], 20)
         assert len(found[3]) - 1 == wanted and len(np.unique(found[4])) == corners
         assert (found[2] >= 0).all() and (found[1] == 0.3).all()
 
@@ -120,16 +109,13 @@ def test_the_border_between_two_sheets_stays(medial):
 
 
 def test_threads_and_scale_change_no_sheet(medial):
-    whole = computed("bracket")
-    triangles = axis_triangles(whole)
+    whole, size = computed("bracket"), 2.0**30
     part = np.repeat(whole.structure.part, np.diff(whole.face_offsets) - 2)
-    nodes = whole.structure.node_vertex
-    mesh = (whole.vertices, whole.radius, triangles, NO_EDGES)
-    one = sheets(medial, mesh, part, nodes, 60, threads=1)
-    three = sheets(medial, mesh, part, nodes, 60, threads=3)
+    others = part, whole.structure.node_vertex, 60
+    mesh = (whole.vertices, whole.radius, axis_triangles(whole), NO_EDGES)
+    one, three = (sheets(medial, mesh, *others, threads=threads) for threads in (1, 3))
     assert all(a.tobytes() == b.tobytes() for a, b in zip(one, three, strict=True))
-    size = 2.0**30
-    large = sheets(medial, (size * mesh[0], size * mesh[1], *mesh[2:]), part, nodes, 60)
+    large = sheets(medial, (size * mesh[0], size * mesh[1], *mesh[2:]), *others)
     assert np.array_equal(large[0], size * one[0]) and np.array_equal(large[4], one[4])
 
 
@@ -143,9 +129,6 @@ def test_labels_that_do_not_fit_are_refused(medial, parts, nodes, match):
 
 
 def test_files_of_polygons(tmp_path):
-    from medial_axis.core.files.read_ma import read_ma
-    from medial_axis.core.files.write import export_axis
-
     small = reduce_axis(computed("bracket"), 60)
     back = read_ma(export_axis(small, tmp_path / "small.ma"))
     assert np.array_equal(back.vertices, small.vertices)

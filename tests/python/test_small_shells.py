@@ -15,52 +15,53 @@ from medial_axis.core.settings import (
     SkeletonSettings,
     ThicknessSettings,
 )
-from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.thickness.face_lengths import MeasuredFaces
 from medial_axis.core.thickness.thickness import measure_thickness
 from support import meshes
+from support.meshes import shape_of
 from support.thick_meshes import block
 
 TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0.2, 0.9, 0], [0.5, 0.3, 0.8]])
 INWARD = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
+
+
+def with_cavities(size, count=1, edge=10):
+    """A cube with cavities along a line through its middle."""
+    places = [(x, 0.1, 0.2) for x in np.arange(count) - 0.5 * (count - 1)]
+    cavities = ((size * TETRAHEDRON + place, INWARD) for place in places)
+    return meshes.join(block(edge, edge, edge), *cavities)
+
+
 # Two boxes that share an edge, so that no count of the faces is that of a solid.
 AT_AN_EDGE = meshes.join(block(2, 2, 2, (11, 0, 0)), block(2, 2, 2, (13, 2, 0)))
-
-
-def with_cavities(mesh, size, count=1):
-    """A mesh with cavities along a line through its middle."""
-    places = [(x, 0.1, 0.2) for x in np.arange(count) - 0.5 * (count - 1)]
-    return meshes.join(mesh, *((size * TETRAHEDRON + place, INWARD) for place in places))
-
-
-def shape_of(mesh):
-    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+SEVEN_CAVITIES = meshes.join(with_cavities(0.1, 7), AT_AN_EDGE)
 
 
 @pytest.mark.parametrize("size", [0.4, 0.04, 0.01])
 @pytest.mark.parametrize("seed", range(2))
 def test_a_small_cavity_is_not_lost(size, seed):
-    found = compute_axis(shape_of(with_cavities(block(10, 10, 10), size)), Settings(seed=seed))
+    found = compute_axis(shape_of(with_cavities(size)), Settings(seed=seed))
     assert found.axis.level.betti == (1, 0, 1) and found.topology.endswith("as the solid")
 
 
 def test_a_cavity_that_no_sample_reaches_is_told():
-    found = compute_axis(shape_of(with_cavities(block(10, 10, 10), 0.002)), Settings())
+    found = compute_axis(shape_of(with_cavities(0.002)), Settings())
     assert found.axis.level.betti == (1, 0, 1) or any("as the faces" in w for w in found.warnings)
 
 
 @pytest.mark.parametrize("size", [1e7, 1e9, 1e37])
 def test_a_shell_too_small_for_the_sampler_takes_no_samples(size):
     settings = Settings(sampling=SamplingMode.SURFACE, samples=300)
-    alone = compute_axis(shape_of(block(size, size, size)), settings)
-    found = compute_axis(shape_of(with_cavities(block(size, size, size), 1.0)), settings)
-    assert len(found.chosen.samples.points) <= len(alone.chosen.samples.points)
+    found, alone = (
+        len(compute_axis(shape_of(mesh), settings).chosen.samples.points)
+        for mesh in (with_cavities(1.0, edge=size), block(size, size, size))
+    )
+    assert found <= alone
 
 
 def test_cavities_beside_an_edge_of_four_faces():
-    mesh = meshes.join(with_cavities(block(10, 10, 10), 0.1, 7), AT_AN_EDGE)
-    found = compute_axis(shape_of(mesh), Settings())
+    found = compute_axis(shape_of(SEVEN_CAVITIES), Settings())
     assert found.chosen.samples.by_faces is None and found.axis.level.betti[2] == 7
 
 
@@ -78,9 +79,8 @@ def test_another_topology_than_that_of_the_faces_is_told():
 
 
 def test_more_pieces_than_parts_and_fewer_cavities_than_inward_shells_are_told():
-    mesh = meshes.join(with_cavities(block(10, 10, 10), 0.1, 7), AT_AN_EDGE)
-    assert said(mesh, (3, 0, 7)) == []
-    (sentence,) = said(mesh, (3, 0, 6))
+    assert said(SEVEN_CAVITIES, (3, 0, 7)) == []
+    (sentence,) = said(SEVEN_CAVITIES, (3, 0, 6))
     assert "6 cavities, and 7 parts of the faces look inward" in sentence
     open_box = (block(1, 1, 1)[0], block(1, 1, 1)[1][1:])
     assert any("40 pieces, and the faces have 1" in text for text in said(open_box, (40, 0, 0)))

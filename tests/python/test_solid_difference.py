@@ -6,17 +6,15 @@ import pytest
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.rebuild.solid_difference import solid_difference
 from medial_axis.core.shape.shape import Shape
+from support.meshes import join
+from support.thick_meshes import block
 
-CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-SIDES = np.array(
-    [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-)
-FACES = np.concatenate([SIDES[:, [0, 1, 2]], SIDES[:, [0, 2, 3]]]).astype(np.int32)
+CORNERS, FACES = block(1.0, 1.0, 1.0, (0.5, 0.5, 0.5))
 
 
-def box(size=1.0, offset=0.0):
+def box(size=1.0):
     """A cube round the middle of the unit cube, outward."""
-    return Shape((CORNERS - 0.5) * size + 0.5 + offset, FACES)
+    return Shape(*block(size, size, size, (0.5, 0.5, 0.5)))
 
 
 def to_box(points):
@@ -87,13 +85,9 @@ def test_a_smaller_box(medial):
 
 def test_a_part_that_is_missing_counts_whichever_way_it_is_asked(medial):
     """Two cubes are compared with one: only the distance from the second cube is large."""
-    one = box()
-    far = box(offset=3.0)
-    two = Shape(
-        np.concatenate([one.points, far.points]), np.concatenate([FACES, FACES + np.int32(8)])
-    )
+    one, two = box(), Shape(*join((CORNERS, FACES), (CORNERS + 3.0, FACES)))
     lost, added = solid_difference(two, one), solid_difference(one, two)
-    assert lost.largest * np.sqrt(3) * 4 == pytest.approx(added.largest * np.sqrt(3))
+    assert lost.largest * 4 == pytest.approx(added.largest)
     assert lost.volume == 0.5 and added.volume == 2.0
     assert added.largest == pytest.approx(3.0)  # corner to corner
 

@@ -8,20 +8,14 @@ from medial_axis.core.settings import SolidifySettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.solidify.solidify import solidify
 from support.crossing_triangles import crossing_pairs
-from support.meshes import icosphere, read
+from support.meshes import icosphere, lattice, read, shape_of
 
 
 def strip(profile, width=1.0, steps=6):
     """A sheet along a line of (x, z), as wide along y."""
-    profile, count = np.asarray(profile, float), steps + 1
-    y = np.tile(np.linspace(0, width, count), len(profile))
-    x, z = np.repeat(profile, count, axis=0).T
-    a = (np.arange(len(profile) - 1)[:, None] * count + np.arange(steps)).ravel()
-    faces = (a, a + count, a + count + 1), (a, a + count + 1, a + 1)
-    return Shape(
-        np.column_stack((x, y, z)),
-        np.concatenate([np.column_stack(face) for face in faces]).astype(np.int32),
-    )
+    y = np.tile(np.linspace(0, width, steps + 1), len(profile))
+    x, z = np.repeat(np.asarray(profile, float), steps + 1, axis=0).T
+    return Shape(np.column_stack((x, y, z)), lattice(np.arange(len(y)).reshape(-1, steps + 1)))
 
 
 def fold(degrees, reach=2.0, step=0.05):
@@ -79,23 +73,22 @@ def test_a_gap_leaves_less_room():
 
 
 def test_a_closed_surface_gets_a_wall_inside():
-    points, triangles = icosphere(3)
-    found = solid(Shape(points, triangles.astype(np.int32)), 0.1, -1.0)
+    found = solid(shape_of(icosphere(3)), 0.1, -1.0)
     assert found.volume == pytest.approx(4 / 3 * np.pi * (1 - 0.9**3), rel=0.02)
     assert Shape(found.vertices, found.triangles).solid_betti == (1, 0, 1)
 
 
 def test_coarse_corners_are_not_left_through_their_faces(data_file):
     """With faces as long as the wall is thick, two ways once led out of the ears, and ten corners lost their walls."""
-    points, triangles = read(data_file("spot_low.obj"))
-    wall = 0.03 * np.linalg.norm(np.ptp(points, axis=0))
-    assert solid(Shape(points, triangles.astype(np.int32)), wall, -1.0).least > 0.8 * wall
+    mesh = read(data_file("spot_low.obj"))
+    wall = 0.03 * np.linalg.norm(np.ptp(mesh[0], axis=0))
+    assert solid(shape_of(mesh), wall, -1.0).least > 0.8 * wall
 
 
 def test_the_size_of_the_sheet_and_where_it_is_do_not_matter():
-    shape, moved = fold(20), fold(20)
-    moved = Shape(1024.0 * moved.points, moved.triangles)
-    one, other = solid(shape, 0.15), solid(moved, 1024.0 * 0.15)
+    shape = fold(20)
+    large = Shape(1024.0 * shape.points, shape.triangles)
+    one, other = solid(shape, 0.15), solid(large, 1024.0 * 0.15)
     np.testing.assert_allclose(other.vertices / 1024.0, one.vertices, atol=1e-9)
 
 
@@ -116,17 +109,10 @@ def test_what_is_no_sheet_is_refused():
     edge = np.column_stack((np.cos(turn), np.sin(turn)))
     ring = np.column_stack((np.cos(2 * turn), np.sin(2 * turn), 0 * turn))
     across = 0.3 * (edge[:, :1] * ring + edge[:, 1:] * np.array([0, 0, 1.0]))
-    i = np.arange(12)
     points = np.concatenate((ring - across, ring + across))
-    low, high = np.append(np.arange(12), 12), np.append(np.arange(12, 24), 0)
-    rows = np.concatenate(
-        [
-            np.column_stack((low[i], low[i + 1], high[i + 1])),
-            np.column_stack((low[i], high[i + 1], high[i])),
-        ]
-    )
+    ends = np.column_stack((np.append(np.arange(12), 12), np.append(np.arange(12, 24), 0)))
     with pytest.raises(InvalidInputError, match="twisted"):
-        solidify(Shape(points, rows.astype(np.int32)), SolidifySettings())
+        solidify(Shape(points, lattice(ends)), SolidifySettings())
 
 
 def test_selected_faces_alone_become_a_solid():

@@ -9,6 +9,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from medial_axis.core.axis.medial_axis import MedialAxis
+from medial_axis.core.settings import Settings
 
 FOLDER = Path(__file__).resolve().parents[2] / "native" / "python"
 NONE = "no default"
@@ -62,19 +64,17 @@ def compiled(request):
 
 
 def parameters(node):
-    """(positional, keyword only) parameters of a stub's function without self, as name -> default or NONE."""
-    arguments = node.args
+    """(positional, keyword only) parameters of a stub's function without self, as name -> default or NONE.
+
+    The ellipsis stands for a member of an enum, or a number that is no short literal.
+    """
+    arguments, default_of = node.args, ast.literal_eval
     free = len(arguments.args) - len(arguments.defaults)
     defaults = [NONE] * free + [default_of(d) for d in arguments.defaults]
     positional = {a.arg: d for a, d in zip(arguments.args, defaults, strict=True)}
     positional.pop("self", None)
     named = zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
     return positional, {a.arg: NONE if d is None else default_of(d) for a, d in named}
-
-
-def default_of(node):
-    """A literal; the ellipsis stands for a member of an enum, or a number that is no short literal."""
-    return ast.literal_eval(node)
 
 
 def signature_line(function):
@@ -86,16 +86,14 @@ def compiled_parameters(function):
     """As `parameters`, with defaults as text."""
     line = signature_line(function)
     inside = line[line.index("(") + 1 : line.rindex(")")]
-    parts, depth, current = [], 0, ""
+    parts, depth = [""], 0
     for character in inside:
-        depth += character in "([{<"
-        depth -= character in ")]}>"
+        depth += (character in "([{<") - (character in ")]}>")
         if character == "," and depth == 0:
-            parts.append(current.strip())
-            current = ""
+            parts.append("")
         else:
-            current += character
-    parts = [part for part in [*parts, current.strip()] if part]
+            parts[-1] += character
+    parts = [part.strip() for part in parts if part.strip()]
     star = parts.index("*") if "*" in parts else len(parts)
     found = [re.fullmatch(r"(\w+)(?:: .+?)?(?: = (.+))?", part) for part in parts if part != "*"]
     pairs = [(m[1], NONE if m[2] is None else m[2]) for m in found]
@@ -122,9 +120,8 @@ def described(thing):
 
 def test_every_public_name_is_in_both(compiled):
     public = {name for name in dir(compiled.module) if not name.startswith("_")} | {"__version__"}
-    assert (
-        public == set(compiled.stub.classes) | set(compiled.stub.functions) | compiled.stub.others
-    )
+    stub = compiled.stub
+    assert public == {*stub.classes, *stub.functions, *stub.others}
 
 
 def test_class_members_are_in_both(compiled):
@@ -174,22 +171,21 @@ def test_defaults_of_the_thresholds(medial):
     """Stated once in the stub's text: pi/8, 8, BOTH, EITHER, ANGLE_OR_RATIO, off."""
     for function in (medial.MedialAnalysis.select, medial.MedialAnalysis.extract):
         line = signature_line(function)
-        theta = float(re.search(r"theta: [\w.]+ = ([\d.]+)", line).group(1))
-        assert theta == pytest.approx(3.141592653589793 / 8, rel=1e-15)
-        assert float(re.search(r"rho: [\w.]+ = ([\d.]+)", line).group(1)) == 8.0
+        assert default_in(line, "theta") == pytest.approx(3.141592653589793 / 8, rel=1e-15)
+        assert default_in(line, "rho") == 8.0
         for value in ("BOTH", "EITHER", "ANGLE_OR_RATIO"):
             assert value in line
         assert "limit_set: bool = False" in line
 
 
-def test_settings_of_the_add_on_have_the_same_defaults(medial):
-    from medial_axis.core.settings import Settings
+def default_in(line, name):
+    return float(re.search(rf"{name}: [\w.]+ = ([\d.]+)", line)[1])
 
+
+def test_settings_of_the_add_on_have_the_same_defaults(medial):
     line = signature_line(medial.MedialAnalysis.extract)
-    assert float(re.search(r"theta: [\w.]+ = ([\d.]+)", line).group(1)) == pytest.approx(
-        Settings().theta, rel=1e-15
-    )
-    assert float(re.search(r"rho: [\w.]+ = ([\d.]+)", line).group(1)) == Settings().rho
+    assert default_in(line, "theta") == pytest.approx(Settings().theta, rel=1e-15)
+    assert default_in(line, "rho") == Settings().rho
     for choice in ("rule", "criteria"):
         value = getattr(Settings(), choice)
         assert value.name in line
@@ -198,8 +194,6 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
 
 
 def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
-    from medial_axis.core.axis.medial_axis import MedialAxis
-
     own = {"level", "structure"}  # of clean forms and curves
     count_of_work = {"rings"}
     found = set(members(MEDIAL.classes["MedialMesh"])) - count_of_work

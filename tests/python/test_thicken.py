@@ -17,8 +17,6 @@ from medial_axis.core.settings import (
     ThickenSettings,
     ThicknessSettings,
 )
-from medial_axis.core.shape.shape import Shape
-from medial_axis.core.shape.triangles import unit_normals
 from medial_axis.core.thickness import thickness
 from medial_axis.core.thickness.face_gaps import face_gaps
 from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
@@ -28,7 +26,7 @@ from medial_axis.core.thickness.thin_in_part import subdivided
 from medial_axis.core.thickness.thin_parts import Patch, ThinParts
 from scipy.spatial import cKDTree
 from support import thin_solids, topology
-from support.meshes import join, read, write_off
+from support.meshes import join, read, shape_of, write_off
 from support.thick_meshes import block, ellipsoid, shell
 from support.thin_solids import turned, union
 
@@ -38,22 +36,19 @@ LIMIT = 0.05
 FEW = Settings(samples=3_000)
 
 
-def shape_of(mesh):
-    points, triangles = mesh
-    return Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
-
-
-def thickened(mesh, limit=LIMIT, selected=None, **wanted):
-    settings = ThickenSettings(limit=limit, **wanted)
-    return thicken(shape_of(mesh), Settings(), settings, selected)
+def thickened(mesh, limit=LIMIT, selected=None, settings=Settings(), **wanted):
+    return thicken(shape_of(mesh), settings, ThickenSettings(limit=limit, **wanted), selected)
 
 
 def finer(mesh, longest):
     """The mesh with its faces cut until no edge is longer."""
-    points, triangles = (np.ascontiguousarray(each) for each in mesh)
-    none = np.zeros((0, 2), np.int32), np.zeros(0, np.int8)
-    cut = cut_faces(coarse_faces(points, triangles.astype(np.int32), *none), longest)
+    shape, none = shape_of(mesh), (np.zeros((0, 2), np.int32), np.zeros(0, np.int8))
+    cut = cut_faces(coarse_faces(shape.points, shape.triangles, *none), longest)
     return cut.points, cut.triangles
+
+
+def measured(shape, **wanted):
+    return measure_thickness(shape, Settings(), ThicknessSettings(**wanted))
 
 
 @pytest.mark.parametrize("seed", (1, 2, 3))
@@ -66,8 +61,7 @@ def test_thin_solids_get_the_limit(name, seed):
 
 def test_rims_stay_where_they_are():
     """A plate grows in height only, by half on both sides."""
-    mesh = thin_solids.plate(0.01).mesh
-    moves = thickened(mesh).moves
+    moves = thickened(thin_solids.plate(0.01).mesh).moves
     np.testing.assert_allclose(moves[:, :2], 0.0, atol=1e-12)
     np.testing.assert_allclose(np.abs(moves[:, 2]), 0.02, rtol=2e-3)
 
@@ -94,8 +88,7 @@ def test_round_ends_gain_with_the_rest():
     Its balls touch whole circles, and rounding decides at which place: copies that differ in last bits reach 0.88 to
     0.91.
     """
-    points, triangles = ellipsoid((1.0, 0.5, 0.5), 4)
-    found = thickened((points, triangles), limit=0.9)
+    found = thickened(ellipsoid((1.0, 0.5, 0.5), 4), limit=0.9)
     # Normals differ by 120 degrees where x = 4 y tan 30, so y = (28 / 3)^-1/2 and the ball has 2 y / cos 30 = 0.756.
     assert found.before.minimum < 0.76 and found.after.minimum > 0.87
 
@@ -111,9 +104,7 @@ def test_what_is_far_from_thin_walls_stays():
 
 def test_a_blend_rises_to_the_wall():
     """A plate that gets thicker along its length has the limit where it was thinner, and rises before that."""
-    points, triangles = finer(block(2.0, 0.5, 0.02), 0.04)
-    points = points - points.min(axis=0)
-    points[:, 2] *= 1.0 + 4.0 * points[:, 0]  # 0.02 to 0.18
+    points, triangles = ramp(finer(block(2.0, 0.5, 0.02), 0.04), 4.0)  # 0.02 to 0.18
     found = thickened((points, triangles), blend=0.2)
     # A ball that rests against the rim of a wall that tapers touches it farther on.
     assert found.left.share < 0.005 and found.after.minimum > 0.99 * LIMIT
@@ -122,6 +113,13 @@ def test_a_blend_rises_to_the_wall():
     assert not moved[thickness > LIMIT + 0.01 + 0.08 * 0.2].any()
     wall = (points[:, 2] < 1e-9) | (points[:, 2] > thickness - 1e-9)
     assert (moved[wall & (thickness < 0.045)] > 0.0).all()
+
+
+def ramp(plate=block(2.0, 0.5, 0.02), steep=2.0):
+    """The plate, which gets thicker along its length: from 0.02 to 0.1, by twelve triangles."""
+    points = plate[0] - plate[0].min(axis=0)
+    points[:, 2] *= 1.0 + steep * points[:, 0]
+    return points, plate[1]
 
 
 def slot(width):
@@ -139,8 +137,7 @@ def test_walls_of_a_narrow_slot_do_not_meet(seed):
     found = thickened(turned(slot(0.03), seed))
     assert found.gap == pytest.approx(0.03, rel=1e-4)
     assert any("gaps down to 0.03" in sentence for sentence in found.warnings)
-    after = replace(found.after.shape, reading=None)
-    gap = measure_thickness(after, Settings(), ThicknessSettings(between=Between.GAP))
+    gap = measured(replace(found.after.shape, reading=None), between=Between.GAP)
     assert 0.002 < gap.minimum < 0.03
     assert not found.left.patches  # the free sides gain what the others may not
 
@@ -201,28 +198,14 @@ def test_faces_that_are_thin_in_part_ask_for_a_subdivision():
         thickened(mesh)
     found = thickened(finer(mesh, 0.03))
     assert not found.left.patches
-    before = measure_thickness(found.before.shape, Settings(), ThicknessSettings(edges=Edges.GREY))
+    before, after = (measured(x.shape, edges=Edges.GREY) for x in (found.before, found.after))
     thin = before.of_triangles < LIMIT
-    after = measure_thickness(found.after.shape, Settings(), ThicknessSettings(edges=Edges.GREY))
     assert (after.of_triangles[thin] > LIMIT * 0.999).mean() > 0.95
-
-
-def ramp():
-    """Twelve triangles of a plate that gets thicker along its length, from 0.02 to 0.1."""
-    points, triangles = block(2.0, 0.5, 0.02)
-    points = points - points.min(axis=0)
-    points[:, 2] *= 1.0 + 2.0 * points[:, 0]
-    return points, triangles
-
-
-def divided(mesh, **wanted):
-    settings = ThickenSettings(limit=LIMIT, subdivide=True, **wanted)
-    return thicken(shape_of(mesh), FEW, settings)
 
 
 def test_subdivide_divides_what_is_thin_in_part():
     mesh = turned(ramp(), 4)
-    found = divided(mesh)
+    found = thickened(mesh, settings=FEW, subdivide=True)
     assert found.left.share < 0.002 and found.after.minimum > 0.95 * LIMIT
     shape = found.before.shape
     np.testing.assert_array_equal(shape.points[:8], mesh[0])
@@ -237,15 +220,12 @@ def test_subdivide_divides_what_is_thin_in_part():
 
 def test_subdivide_leaves_other_faces():
     """A plate beside the ramp keeps its faces, and a plate alone all of them."""
-    plate, other = thin_solids.plate(0.01).mesh, ramp()
+    plate = thin_solids.plate(0.01).mesh
     shape, face = subdivided(shape_of(plate), FEW, LIMIT)
     np.testing.assert_array_equal(shape.points, plate[0])
     np.testing.assert_array_equal(face, np.arange(len(plate[1])))
-    both = (
-        np.concatenate((plate[0] + (9.0, 0.0, 0.0), other[0])),
-        np.concatenate((plate[1], other[1] + len(plate[0]))),
-    )
-    shape, face = subdivided(shape_of(both), FEW, LIMIT)
+    both = shape_of(join((plate[0] + (9.0, 0.0, 0.0), plate[1]), ramp()))
+    _, face = subdivided(both, FEW, LIMIT)
     assert (face < len(plate[1])).sum() == len(plate[1]) < len(face) / 10
 
 
@@ -258,8 +238,7 @@ def test_nothing_is_measured_twice(monkeypatch):
         return once(shape, settings, wanted, progress)
 
     def click():
-        wanted = ThickenSettings(limit=LIMIT, subdivide=True)
-        return thicken(shape_of(turned(ramp(), 2)), Settings(samples=300), wanted)
+        return thickened(turned(ramp(), 2), settings=Settings(samples=300), subdivide=True)
 
     monkeypatch.setattr(thickness, "lengths_by_faces", counted)
     CACHE.clear()
@@ -274,8 +253,7 @@ def test_nothing_is_measured_twice(monkeypatch):
     for other in (again, fresh):
         assert other.moves.tobytes() == found.moves.tobytes()
         for name in ("of_vertices", "of_triangles"):
-            one, two = (getattr(x.after, name).tobytes() for x in (found, other))
-            assert one == two
+            assert getattr(other.after, name).tobytes() == getattr(found.after, name).tobytes()
         assert other.warnings == found.warnings and other.left.share == found.left.share
 
 
@@ -286,8 +264,8 @@ def test_sharp_edges_and_the_choice_of_faces_go_along():
     ends = shape.points[shape.sharp_edges]
     whole = np.linalg.norm(points[edge[0, 1]] - points[edge[0, 0]])
     assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() == pytest.approx(whole)
-    normals = (unit_normals(p[t])[0] for p, t in ((shape.points, shape.triangles), ramp()))
-    made, given = normals
+    made = topology.unit_normals(shape.points, shape.triangles)
+    given = topology.unit_normals(points, triangles)
     np.testing.assert_allclose(made, given[face], atol=1e-9)
 
 
@@ -305,14 +283,15 @@ def test_files_and_figures(tmp_path, capsys):
     points, triangles = read(tmp_path / "thick.ply")
     assert len(triangles) == said["faces"] > 500
     thin = points[:, 0] < 0.2
-    assert (
-        LIMIT < np.ptp(points[thin][:, 2]) < 1.3 * LIMIT
-    )  # a wall in the plane of its rim gains more
+    # A wall in the plane of its rim gains more.
+    assert LIMIT < np.ptp(points[thin][:, 2]) < 1.3 * LIMIT
 
 
 def test_open_meshes_and_no_limit_are_refused():
     points, triangles = thin_solids.plate(0.01).mesh
-    with pytest.raises(InvalidInputError, match="Expected closed faces"):
-        thickened((points, triangles[:-1]))
-    with pytest.raises(InvalidInputError, match="Expected a limit above 0"):
-        thickened((points, triangles), limit=0.0)
+    for faces, limit, said in (
+        (triangles[:-1], LIMIT, "closed faces"),
+        (triangles, 0.0, "a limit above 0"),
+    ):
+        with pytest.raises(InvalidInputError, match=f"Expected {said}"):
+            thickened((points, faces), limit)

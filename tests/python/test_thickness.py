@@ -18,36 +18,22 @@ from medial_axis.core.settings import (
     Settings,
     ThicknessSettings,
 )
-from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
 from medial_axis.core.thickness.write_thickness import export_thickness
-from support import inputs, meshes, thin_solids
-from support.meshes import join
+from support import inputs, meshes, resampled, thin_solids, topology
+from support.meshes import join, lattice, shape_of
 from support.plates import prism
-from support.thick_meshes import (
-    block,
-    ellipsoid,
-    lathe,
-    rays,
-    shell,
-    shrinking_ball,
-)
+from support.thick_meshes import block, ellipsoid, lathe, rays, shell, shrinking_ball
 
 pytestmark = pytest.mark.oracle
 
 EVEN = Settings(sampling=SamplingMode.SURFACE)
+BY_VERTICES = Settings(sampling=SamplingMode.VERTICES)
 BOX = block(1.0, 0.7, 0.4)
 STAIRS = thin_solids.union(*(((k, 0, 0), (k + 1, 1, 0.1 * (k + 1))) for k in range(3)))
 GAP = join(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))
-
-
-def shape_of(mesh, normals=None):
-    vertices, triangles = mesh
-    return Shape(
-        np.ascontiguousarray(vertices, float), np.ascontiguousarray(triangles, np.int32), normals
-    )
 
 
 def measure(mesh, settings=EVEN, normals=None, **wanted):
@@ -64,13 +50,21 @@ def assert_bars(lengths, truth):
     assert abs(median) < 0.005 and low > -0.03 and high < 0.03
 
 
-def moved(mesh, scale, seed, mirror):
+def moved(mesh, scale, seed, mirror=False):
     vertices, triangles = mesh
     turn = inputs.rotation(seed) if seed else np.identity(3)
     vertices = scale * vertices @ turn.T
-    if not mirror:
-        return vertices, triangles
-    return vertices * (-1, 1, 1), triangles[:, ::-1]
+    return meshes.flip((vertices * (-1, 1, 1), triangles)) if mirror else (vertices, triangles)
+
+
+def single(mesh, seed=0):
+    """The mesh turned, with coordinates rounded as meshes store them."""
+    vertices, triangles = moved(mesh, 1.0, seed)
+    return vertices.astype(np.float32).astype(float), triangles
+
+
+def unit(vectors):
+    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
 # --- exact shapes
@@ -110,8 +104,7 @@ def test_cone():
 
 
 def dense_ellipsoid(axes, count=300_000):
-    directions = np.random.default_rng(5).normal(size=(count, 3))
-    return directions / np.linalg.norm(directions, axis=1)[:, None] * axes
+    return unit(np.random.default_rng(5).normal(size=(count, 3))) * axes
 
 
 def test_ellipsoid_against_shrinking_balls():
@@ -121,43 +114,32 @@ def test_ellipsoid_against_shrinking_balls():
     balls, walls = measure(ellipsoid(axes), edges=Edges.BALL), measure(ellipsoid(axes))
     some = np.random.default_rng(1).choice(len(balls.points), 400, replace=False)
     points = balls.points[some] / np.sqrt(((balls.points[some] / axes) ** 2).sum(axis=1))[:, None]
-    normals = points / axes**2
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    normals = unit(points / axes**2)
     truth, touched = shrinking_ball(points, normals, surface)
     assert_bars(balls.lengths[some], truth)
     assert np.abs(balls.lengths[some] / truth - 1).mean() < 0.004
-    others = surface[touched] / axes**2
-    others /= np.linalg.norm(others, axis=1)[:, None]
-    wall = (normals * others).sum(axis=1) < -0.52
+    wall = (normals * unit(surface[touched] / axes**2)).sum(axis=1) < -0.52
     assert wall.sum() > 100
     assert_bars(walls.lengths[some][wall], truth[wall])
     assert (walls.lengths[some] > 0.99 * truth).all(), "what is filled is no less than the ball"
 
 
-WEDGE = (
-    np.array([(x, y, z) for y in (0.0, 0.7) for x, z in ((0, 0), (1, 0), (0.94, 0.342))], float),
-    np.array(
-        [(0, 1, 2), (3, 5, 4), (0, 4, 1), (0, 3, 4), (1, 5, 2), (1, 4, 5), (2, 3, 0), (2, 5, 3)]
-    ),
-)
+WEDGE = prism([(0, 0), (1, 0), (0.94, 0.342)], [(0, 1, 2)], 0.7)
 
 
 def widths_in_convex(points, faces, mesh):
     """(n,) the largest ball that touches a place of a face and no other plane, in closed form."""
     vertices, triangles = mesh
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    normals = topology.unit_normals(vertices, triangles)
     apart = 1.0 - normals[faces] @ normals.T
-    away = (normals * a).sum(axis=1) - points @ normals.T
+    away = (normals * vertices[triangles[:, 0]]).sum(axis=1) - points @ normals.T
     with np.errstate(divide="ignore", invalid="ignore"):
         return 2 * np.where(apart > 1e-9, away / apart, np.inf).min(axis=1)
 
 
 @pytest.mark.parametrize("mesh", [block(1, 0.7, 0.05), BOX, WEDGE], ids=["plate", "box", "wedge"])
 def test_balls_between_flat_faces_are_exact_up_to_the_edges(mesh):
-    vertices, triangles = moved(mesh, 1.0, 3, False)
-    mesh = vertices.astype(np.float32).astype(float), triangles
+    mesh = single(mesh, 3)
     found = measure(mesh, edges=Edges.BALL)
     inside = ~found.at_edge
     truth = widths_in_convex(found.points[inside], found.surface.faces[inside], mesh)
@@ -166,21 +148,10 @@ def test_balls_between_flat_faces_are_exact_up_to_the_edges(mesh):
     assert (walls.lengths[inside] >= (1 - 1e-6) * found.lengths[inside]).all()
 
 
-def revolved(profile, around=48):
-    """A ring whose section is a polygon of (radius, height), counter-clockwise."""
-    radius, height = np.array(profile, float).T
-    turn = 2 * np.pi * np.arange(around)[:, None] / around
-    points = np.stack((np.cos(turn) * radius, np.sin(turn) * radius, 0 * turn + height), axis=-1)
-    a = np.arange(around * len(radius)).reshape(around, -1)
-    b, d = np.roll(a, -1, axis=1), np.roll(a, -1, axis=0)
-    quads = np.stack((a, d, np.roll(d, -1, axis=1), b), axis=-1).reshape(-1, 4)
-    return points.reshape(-1, 3), np.concatenate((quads[:, :3], quads[:, [0, 2, 3]]))
-
-
 def test_a_narrow_lip_is_as_thick_as_the_ball_at_its_edge():
     """All corners of its triangles lie on edges, most of which have the thickness of the wall beside it."""
     outline = [(7, 0), (7, 8), (3.95, 8), (3.95, 7.8), (4, 7.8), (4, 0)]
-    found = measure(revolved(outline), Settings())
+    found = measure(meshes.revolved(outline, 48), Settings())
     middle = found.points[found.triangles].mean(axis=1)
     below = (np.hypot(*middle[:, :2].T) < 4.0) & (np.abs(middle[:, 2] - 7.8) < 1e-9)
     assert below.sum() > 100
@@ -212,11 +183,8 @@ def test_flat_faces_stay_flat_beside_bevels(medial):
 def bent_bar(segments, thickness=0.02, width=0.04, fillet=0.002):
     """A flat bar with rounded edges, bent about an axis at a distance of 1."""
     turn = np.linspace(0.0, np.pi / 2, 4)
-    across, up = (
-        width / 2 - fillet + fillet * np.sin(turn),
-        thickness / 2 - fillet * (1 - np.cos(turn)),
-    )
-    right = np.column_stack((across, up))
+    across = width / 2 - fillet + fillet * np.sin(turn)
+    right = np.column_stack((across, thickness / 2 - fillet * (1 - np.cos(turn))))
     right = np.concatenate((right, right[::-1] * (1, -1)))
     z, off = np.concatenate((right, -right)).T
     rings = [
@@ -224,11 +192,9 @@ def bent_bar(segments, thickness=0.02, width=0.04, fillet=0.002):
         for a in np.linspace(-0.5, 0.5, segments + 1)
     ]
     a = np.arange(len(rings) * len(z)).reshape(len(rings), -1)
-    b = np.roll(a, -1, axis=1)
-    quads = np.stack((a[:-1], b[:-1], b[1:], a[1:]), axis=-1).reshape(-1, 4)
-    fan = np.column_stack((0 * z[2:], np.arange(1, len(z) - 1), np.arange(2, len(z)))).astype(int)
-    ends = np.concatenate((fan[:, ::-1], fan + a[-1, 0]))
-    return np.concatenate(rings), np.concatenate((quads[:, :3], quads[:, [0, 2, 3]], ends))
+    walls = lattice(np.pad(a, ((0, 0), (0, 1)), "wrap").T)
+    fan = np.array([(0, k, k + 1) for k in range(1, len(z) - 1)])
+    return np.concatenate(rings), np.concatenate((walls, fan[:, ::-1], fan + a[-1, 0]))
 
 
 @pytest.mark.parametrize("segments", [16, 40])
@@ -244,9 +210,8 @@ def test_flat_faces_stay_flat_where_a_bar_with_bevels_is_bent(segments):
 @pytest.mark.parametrize("around, across, turn", [(100, 16, 0.5), (250, 60, 0.5), (4400, 14, 0.0)])
 def test_rows_of_a_ring_are_no_walls(around, across, turn):
     """Rows on top of it are flat, or so long that each of their triangles lies in the next one's plane."""
-    mesh = moved(meshes.torus(1.0, 0.2, around, across, turn), 1.0, 3, False)
-    mesh = mesh[0].astype(np.float32).astype(float), mesh[1]
-    found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    mesh = single(meshes.torus(1.0, 0.2, around, across, turn), 3)
+    found = measure(mesh, BY_VERTICES, edges=Edges.BALL)
     assert errors(found.lengths, 0.4)[0] > -0.03
     assert np.mean(np.abs(found.lengths / 0.4 - 1)) < 0.015
 
@@ -291,11 +256,7 @@ def torus_of_rows(around=60, across=24, jitter=0.25):
     ids=["even", "half caps", "graded", "icosphere", "capsule", "tube", "uneven tube"],
 )
 def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, bar, turned):
-    vertices, triangles = moved(mesh, 1.0, turned, False)
-    vertices = vertices.astype(np.float32).astype(float)
-    found = measure(
-        (vertices, triangles), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
-    )
+    found = measure(single(mesh, turned), BY_VERTICES, edges=Edges.BALL)
     assert not found.at_edge.any()
     np.testing.assert_allclose(found.lengths, truth, rtol=bar)
 
@@ -306,7 +267,7 @@ def test_no_small_cavity_is_overlooked_in_a_ball(deep):
     outer, cavity = meshes.icosphere(4), meshes.icosphere(2)
     places, radius = deep * np.array([(0.6, 0.64, 0.48), (-0.48, 0.6, -0.64)]), 0.03
     voids = [(radius * cavity[0] + place, cavity[1][:, ::-1]) for place in places]
-    found = measure(join(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    found = measure(join(outer, *voids), BY_VERTICES, edges=Edges.BALL)
     away = outer[0][:, None] - places
     square, height = (away**2).sum(axis=2), (away * outer[0][:, None]).sum(axis=2)
     with np.errstate(divide="ignore"):
@@ -320,37 +281,33 @@ def test_ellipsoids_of_any_rows_against_shrinking_balls():
     axes = np.array([1.0, 0.7, 0.5])
     surface = dense_ellipsoid(axes, 60_000)
     for mesh in (ellipsoid(axes, 4), sphere_of_rows([0.5, *[1.0] * 40, 0.5], 60, axes)):
-        found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+        found = measure(mesh, BY_VERTICES, edges=Edges.BALL)
         some = np.random.default_rng(1).choice(len(mesh[0]), 200, replace=False)
-        normals = mesh[0][some] / axes**2
-        normals /= np.linalg.norm(normals, axis=1)[:, None]
-        off = found.lengths[some] / shrinking_ball(mesh[0][some], normals, surface)[0] - 1
+        points = mesh[0][some]
+        off = found.lengths[some] / shrinking_ball(points, unit(points / axes**2), surface)[0] - 1
         assert np.abs(off).mean() < 0.0025 and off.min() > -0.01 and off.max() < 0.05
 
 
 def test_faces_are_cut_alike_on_both_sides_of_every_edge():
-    vertices, triangles = BOX
     sharp = np.array([(0, 1), (0, 2), (0, 4)], np.int32)
-    fine = cut_faces(coarse_faces(vertices, triangles, sharp, np.array([1, 2, 2], np.int8)), 0.06)
+    fine = cut_faces(coarse_faces(*BOX, sharp, np.array([1, 2, 2], np.int8)), 0.06)
     corners = fine.points[fine.triangles]
-    ways = corners - np.roll(corners, 1, axis=1)
-    assert np.linalg.norm(ways, axis=2).max() <= 0.06
-    areas = np.linalg.norm(np.cross(ways[:, 0], ways[:, 1]), axis=1) / 2
+    lengths = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    assert lengths.max() <= 0.06
+    areas = np.linalg.norm(topology.vector_areas(fine.points, fine.triangles), axis=1)
     assert areas.min() > 0 and areas.sum() == pytest.approx(2.76)
     assert len(fine.edges()) == 3 * len(fine.triangles) / 2
-    lengths = np.linalg.norm(ways, axis=2)[:, [1, 2, 0]]
     assert lengths[fine.kinds == 1].sum() == pytest.approx(2 * 0.4)
     assert lengths[fine.kinds == 2].sum() == pytest.approx(2 * 1.7)
 
 
 def test_stairs_against_rays():
-    mesh = STAIRS
-    found = measure(mesh, Settings())
+    found = measure(STAIRS, Settings())
     assert found.chosen.gaps == 0 and found.shape.volume == pytest.approx(0.6)
     x, z = found.points[:, 0], found.points[:, 2]
     flat = (np.abs(x - np.round(x)) > 0.3) & (z < 1e-9)  # the middle of each step, from below
     down = np.tile([0.0, 0.0, -1.0], (int(flat.sum()), 1))
-    truth = rays(found.points[flat], down, mesh)
+    truth = rays(found.points[flat], down, STAIRS)
     assert set(np.round(truth, 6)) == {0.1, 0.2, 0.3}
     assert_bars(found.lengths[flat], truth)
     # top and bottom of the steps, and what of their sides is near
@@ -392,9 +349,7 @@ def disc(sides, height):
     """A plate over a polygon, whose flat faces are fans of needles."""
     turns = 2 * np.pi * np.arange(sides) / sides
     outline = 7.5 * np.column_stack((np.cos(turns), np.sin(turns)))
-    fan = [(0, corner, corner + 1) for corner in range(1, sides - 1)]
-    points, triangles = prism(outline, fan, height)
-    return points.astype(np.float32).astype(float), triangles
+    return single(prism(outline, [(0, k, k + 1) for k in range(1, sides - 1)], height))
 
 
 @pytest.mark.parametrize("height", [0.1, 0.5, 1.0])
@@ -428,8 +383,7 @@ def test_a_thin_plate_flush_with_a_block_leaves_the_block_thick():
 @pytest.mark.parametrize("seed", [0, 4])
 def test_strictly_below_the_limit(seed):
     """0.80 is not below 0.8, also as float32 and turned."""
-    vertices, triangles = moved(block(3.0, 2.0, 0.8), 1.0, seed, False)
-    found = measure((vertices.astype(np.float32), triangles))
+    found = measure(single(block(3.0, 2.0, 0.8), seed))
     assert find_thin_parts(found, 0.8).patches == ()
     assert find_thin_parts(found, 0.8001).share == pytest.approx(1.0, abs=1e-3)
 
@@ -444,23 +398,16 @@ def test_the_minimum_is_of_a_patch_and_not_of_a_point():
 
 def test_faces_are_thin_where_their_samples_are():
     parts = find_thin_parts(measure(GAP, between=Between.GAP), 0.06)
-    normals = np.array([(0, 0, 1), (0, 0, -1)])
-    vertices, triangles = GAP
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    up = np.sign(np.round(np.cross(b - a, c - a)[:, 2], 9))
-    middle = (a + b + c)[:, 2] / 3
-    facing = ((np.abs(middle - 0.2) < 1e-9) & (up > 0)) | (
-        (np.abs(middle - 0.25) < 1e-9) & (up < 0)
-    )
-    assert len(normals) == 2 and facing.sum() == 4
+    up = np.round(topology.vector_areas(*GAP)[:, 2], 9)
+    middle = GAP[0][GAP[1]].mean(axis=1)[:, 2]
+    facing = (np.abs(middle - np.where(up > 0, 0.2, 0.25)) < 1e-9) & (up != 0)
+    assert facing.sum() == 4
     np.testing.assert_array_equal(parts.patch_of_faces >= 0, facing)
 
 
 def test_patches_come_thinnest_first_and_small_ones_can_be_left_out():
-    mesh = join(
-        block(1, 1, 0.2), block(0.5, 0.5, 0.05, (3, 0, 0)), block(0.2, 0.2, 0.03, (5, 0, 0))
-    )
-    found = measure(mesh, Settings(samples=60_000))
+    small = block(0.5, 0.5, 0.05, (3, 0, 0)), block(0.2, 0.2, 0.03, (5, 0, 0))
+    found = measure(join(block(1, 1, 0.2), *small), Settings(samples=60_000))
     parts = find_thin_parts(found, 0.1)
     assert [p.minimum for p in parts.patches] == pytest.approx([0.03, 0.05], rel=0.02)
     assert [p.area for p in parts.patches] == pytest.approx([0.104, 0.6], rel=0.05)
@@ -488,25 +435,22 @@ def test_more_limits_need_no_other_measurement():
 # --- clouds, noise, open meshes
 
 
-def cloud(count=8000, seed=0):
-    """Samples of the box with their normals, and their spacing."""
-    from medial_axis.core.machine import native
-
-    samples = native.load().sample_surface(*BOX, count=count, seed=seed)
-    return samples.points, samples.normals, np.sqrt(2 * samples.area / np.sqrt(3) / count)
-
-
 NO_FACES = np.empty((0, 3), np.int32)
 
 
+@pytest.fixture
+def cloud(medial):
+    """Samples of the box, with their normals."""
+    return medial.sample_surface(*BOX, count=8000)
+
+
 @pytest.mark.parametrize("given", [False, True])
-def test_points_without_faces(given):
-    points, normals, _ = cloud()
-    found = measure((points, NO_FACES), Settings(), normals if given else None)
+def test_points_without_faces(cloud, given):
+    found = measure((cloud.points, NO_FACES), Settings(), cloud.normals if given else None)
     assert ("the points" in found.normals) == given
     assert_bars(found.lengths, 0.4)
-    assert find_thin_parts(found, 0.41).area == pytest.approx(2.76, rel=0.01)
-    assert len(find_thin_parts(found, 0.41).patch_of_faces) == 0
+    parts = find_thin_parts(found, 0.41)
+    assert parts.area == pytest.approx(2.76, rel=0.01) and len(parts.patch_of_faces) == 0
 
 
 AS_THEY_ARE = Settings(prepare=Prepare.OFF)
@@ -518,9 +462,7 @@ def test_scan_with_noise_of_a_tenth_of_the_spacing(medial, name):
     mesh, truth = NOISY[name]
     count = 30_000 if name == "plate" else 16_000
     samples = medial.sample_surface(*mesh, count=count, smooth=name == "shell")
-    spacing = np.sqrt(2 * samples.area / np.sqrt(3) / len(samples.points))
-    scatter = np.random.default_rng(3).normal(size=samples.points.shape)
-    points = samples.points + 0.1 * spacing * scatter
+    points = scattered(samples, 0.1)
     found = measure((points, NO_FACES), AS_THEY_ARE, samples.normals, noise=Noise.SCAN)
     assert found.noise == pytest.approx(0.1, abs=0.015)
     _, low, median, high = errors(found.lengths, truth)
@@ -531,12 +473,18 @@ def test_scan_with_noise_of_a_tenth_of_the_spacing(medial, name):
     assert prepared.noise < 0.01 and np.abs(errors(prepared.lengths, truth)).max() < 0.05
 
 
+def scattered(samples, noise):
+    """Places of samples with errors of so many spacings."""
+    spacing = resampled.spacing(samples.area, len(samples.points))
+    return samples.points + noise * spacing * np.random.default_rng(3).normal(
+        size=samples.points.shape
+    )
+
+
 @pytest.mark.parametrize("given", [False, True])
-def test_in_too_much_noise_no_figure_is_called_honest(given):
-    points, normals, spacing = cloud()
-    scatter = np.random.default_rng(3).normal(size=points.shape)
-    wild = points + 0.26 * spacing * scatter
-    found = measure((wild, NO_FACES), AS_THEY_ARE, normals if given else None, noise=Noise.SCAN)
+def test_in_too_much_noise_no_figure_is_called_honest(cloud, given):
+    wild, normals = scattered(cloud, 0.26), cloud.normals if given else None
+    found = measure((wild, NO_FACES), AS_THEY_ARE, normals, noise=Noise.SCAN)
     assert any("no figure is honest" in warning for warning in found.warnings)
 
 
@@ -550,19 +498,17 @@ def test_clean_samples_have_no_noise():
 @pytest.mark.parametrize(("radius", "around"), [(5.0, 24), (3.0, 16)])
 def test_an_open_tube_is_as_thick_as_a_closed_one(radius, around, bend):
     """Balls that touched the lids of its openings once passed for walls of a hundredth of that."""
-    turn = 2 * np.pi * np.arange(around) / around
-    along = np.linspace(0.0, 40.0, 20)[:, None]
-    x, y = radius * np.cos(turn), np.tile(radius * np.sin(turn), (20, 1))
+    along, turn = np.meshgrid(
+        np.linspace(0.0, 40.0, 20), 2 * np.pi * np.arange(around) / around, indexing="ij"
+    )
+    x, y = radius * np.cos(turn), radius * np.sin(turn)
     if bend:
-        rings = ((bend + x) * np.cos(along / bend), y, (bend + x) * np.sin(along / bend))
-    else:
-        rings = (np.tile(x, (20, 1)), y, np.tile(along, around))
-    i = np.arange(19 * around)
-    j = i - i % around + (i + 1) % around
-    triangles = np.column_stack((i, j, j + around, i, j + around, i + around)).reshape(-1, 3)
-    points = np.stack(rings, axis=-1).reshape(-1, 3)
-    volume = np.linalg.det(points[triangles] - points.mean(axis=0)).sum()
-    found = measure((points, triangles if volume > 0 else triangles[:, ::-1]), Settings())
+        x, along = (bend + x) * np.cos(along / bend), (bend + x) * np.sin(along / bend)
+    mesh = (
+        np.stack((x, y, along), axis=-1).reshape(-1, 3),
+        lattice(np.pad(np.arange(20 * around).reshape(20, -1), ((0, 0), (0, 1)), "wrap").T),
+    )
+    found = measure(mesh if topology.volume(*mesh) > 0 else meshes.flip(mesh), Settings())
     assert 0.98 * np.cos(np.pi / around) < found.minimum / (2 * radius) < 1.01
     assert not find_thin_parts(found, 0.5 * radius).patches
 
@@ -599,13 +545,11 @@ def test_arguments_are_checked(medial):
 def test_length_of_normals_and_threads_do_not_matter(medial):
     vertices, triangles = ellipsoid(subdivisions=4)
     normals = vertices / np.square((1.0, 0.7, 0.5))
-    values = [
-        medial.MedialAnalysis(vertices, triangles, threads=threads)
-        .thickness(factor * normals)
-        .values
-        for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0))
-    ]
-    assert values[0].tobytes() == values[1].tobytes() == values[2].tobytes()
+    values = set()
+    for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0)):
+        analysis = medial.MedialAnalysis(vertices, triangles, threads=threads)
+        values.add(analysis.thickness(factor * normals).values.tobytes())
+    assert len(values) == 1
 
 
 def test_nearest_and_patches(medial):
@@ -658,9 +602,8 @@ def test_json_says_where(tmp_path):
     assert said["share_below"] == pytest.approx(1.4 / 5.52, rel=0.01)
     for patch in said["patches"]:
         assert set(patch) == {"place", "area", "minimum", "lowest"}
-        assert 9.5 <= patch["place"][0] <= 10.5 and patch["place"][2] == pytest.approx(
-            0.225, abs=0.03
-        )
+        x, _, z = patch["place"]
+        assert 9.5 <= x <= 10.5 and z == pytest.approx(0.225, abs=0.03)
 
 
 def test_json_has_null_where_there_is_no_length(tmp_path):
@@ -679,14 +622,12 @@ def test_ply_is_the_measured_surface(tmp_path):
     vertices = np.frombuffer(body, kind, len(found.points))
     np.testing.assert_array_equal(vertices["place"], found.points)
     np.testing.assert_array_equal(vertices["thickness"], found.lengths)
-    faces = np.frombuffer(
-        body[vertices.nbytes :], [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")]
-    )
+    kind = [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")]
+    faces = np.frombuffer(body[vertices.nbytes :], kind)
     np.testing.assert_array_equal(faces["corners"], found.triangles)
     np.testing.assert_array_equal(faces["patch"], parts.patch_of_triangles)
-    thin, none = np.isfinite(found.lengths), np.isinf(found.lengths)
-    red = vertices["colour"][thin].astype(int)
-    assert (red[:, 0] > 200).all() and len(np.unique(vertices["colour"][none], axis=0)) == 1
+    thin, colour = np.isfinite(found.lengths), vertices["colour"]
+    assert (colour[thin, 0] > 200).all() and len(np.unique(colour[~thin], axis=0)) == 1
 
 
 def test_other_formats_are_refused(tmp_path):
@@ -710,8 +651,7 @@ def test_the_largest_ball_between_lids_of_openings_is_told(height, walls):
     points, triangles = lathe([(0, 0), (1, 0), (1, height), (0, height)], 24)
     side = np.ptp(points[triangles][:, :, 2], axis=1) > 0
     used, rows = np.unique(triangles[side], return_inverse=True)
-    shape = Shape(points[used], rows.reshape(-1, 3).astype(np.int32))
-    found = measure_thickness(shape, Settings(samples=2000), ThicknessSettings())
+    found = measure((points[used], rows.reshape(-1, 3)), Settings(samples=2000))
     told = " ".join(found.warnings)
     assert "the surface is open at 48 edges" in told
     assert found.measured.any() == walls == ("the largest ball" not in told)

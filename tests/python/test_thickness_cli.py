@@ -21,9 +21,8 @@ def box(tmp_path):
 
 
 def run(*words):
-    return cli.main(
-        ["thickness", *map(str, words), "--quiet", "--sampling", "surface", "--samples", "4000"]
-    )
+    options = "--quiet", "--sampling", "surface", "--samples", "4000"
+    return cli.main(["thickness", *map(str, words), *options])
 
 
 def test_exit_code_says_whether_something_is_thin(box, tmp_path, capsys):
@@ -57,10 +56,8 @@ def test_a_length_is_finite(box, tmp_path, capsys, command, option, length):
 
 
 def test_a_name_of_number_signs_stays_where_there_are_no_frames(box, tmp_path):
-    assert (
-        run(Path(box).rename(tmp_path / "####.off"), f"{tmp_path}/out/", "--format", "csv")
-        == cli.DONE
-    )
+    source = Path(box).rename(tmp_path / "####.off")
+    assert run(source, f"{tmp_path}/out/", "--format", "csv") == cli.DONE
     assert (tmp_path / "out" / "####.csv").exists()
 
 

@@ -7,8 +7,10 @@ import pytest
 from support import inputs, meshes, thick_meshes
 from support.thin_solids import turned, union
 
+both_forms = pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
 
-@pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
+
+@both_forms
 def test_balls_in_a_thin_band_are_no_thicker_than_it(medial, form):
     bar = ((1.0, 0.45, 0.45), (2.0, 0.49, 0.46))
     points, triangles = turned(union(((0.0, 0, 0), (1.0, 1, 1)), bar, ((2.0, 0, 0), (3.0, 1, 1))))
@@ -36,7 +38,7 @@ def _wire_in_bar(medial, sides, wide, form, away=0.0):
 
 @pytest.mark.parametrize("away", [0.0, 1e5])
 @pytest.mark.parametrize(("sides", "wide"), [(4, 0.01), (4, 0.04), (8, 0.005), (3, 0.01), (6, 0.1)])
-@pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
+@both_forms
 def test_a_curve_stands_in_the_middle_of_a_bar(medial, sides, wide, form, away):
     """Between thick ends it had down to 0.65 of the radius, half of it off the middle."""
     off, radius = _wire_in_bar(medial, sides, wide, form, away)
@@ -45,7 +47,7 @@ def test_a_curve_stands_in_the_middle_of_a_bar(medial, sides, wide, form, away):
 
 
 @pytest.mark.parametrize(("sides", "wide"), [(12, 0.02), (16, 0.01), (24, 0.02), (48, 0.02)])
-@pytest.mark.parametrize("form", ["CLEAN", "CURVE"])
+@both_forms
 def test_a_curve_stands_in_the_middle_of_a_round_bar(medial, sides, wide, form):
     """It was up to 0.2 of the radius off, or left the solid for the rim of a disc, where planes meet."""
     off, radius = _wire_in_bar(medial, sides, wide, form)

@@ -1,32 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Capsules that hold a solid have nearly the least volume: formulas, arrangements by hand, and random places."""
 
-import itertools
-
 import medial_axis
 import numpy as np
 import pytest
 from support import meshes
+from support.distance import to_segment
 from support.inputs import rotation
 
 SIZE = np.array([0.4, 0.06, 0.05])
 
 
 def box(size, low=(0.0, 0.0, 0.0)):
-    vertices, triangles = meshes.box()
-    part = (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0)
-    return part * size + low, triangles
+    vertices, triangles = meshes.box(half=np.array(size) / 2)
+    return vertices + np.array(size) / 2 + low, triangles
 
 
 def away(places, ends, radii):
     """(n,) distances of places from capsules of one radius each, negative inside."""
-    found = []
-    for (a, b), r in zip(ends, radii, strict=True):
-        along = b - a
-        square = max(along @ along, 1e-300)
-        share = np.clip((places - a) @ along / square, 0.0, 1.0)[:, None]
-        found.append(np.linalg.norm(places - a - share * along, axis=1) - r)
-    return np.min(found, axis=0)
+    gaps = [to_segment(places, a, b) - r for (a, b), r in zip(ends, radii, strict=True)]
+    return np.min(gaps, axis=0)
 
 
 def union(ends, radii):
@@ -41,18 +34,17 @@ def along_box(size):
     """The ends and the radius of the least capsule round a box along its first side."""
     half = np.hypot(size[1], size[2]) / 2
     radius = half * np.linspace(1.0, 1.5, 2001)
-    length = size[0] - 2 * np.sqrt(radius**2 - half**2)
-    best = (np.pi * radius**2 * np.maximum(length, 0) + 4 / 3 * np.pi * radius**3).argmin()
-    middle = size / 2
-    by = np.array([max(length[best], 0.0) / 2, 0.0, 0.0])
-    return np.stack([middle - by, middle + by]), radius[best]
+    length = np.maximum(size[0] - 2 * np.sqrt(radius**2 - half**2), 0.0)
+    best = (np.pi * radius**2 * length + 4 / 3 * np.pi * radius**3).argmin()
+    by = np.array([length[best] / 2, 0.0, 0.0])
+    return np.stack([size / 2 - by, size / 2 + by]), radius[best]
 
 
 def by_hand(across, up):
     """Capsules side by side along the box, so many across and up."""
     part = SIZE / (1, across, up)
     ends, radius = along_box(part)
-    found = [ends + part * (0, i, j) for i, j in itertools.product(range(across), range(up))]
+    found = [ends + part * (0, i, j) for i in range(across) for j in range(up)]
     return np.array(found), np.full(len(found), radius)
 
 
@@ -84,15 +76,10 @@ def test_more_capsules_round_a_link_are_as_tight_as_by_hand(count):
 
 
 def test_an_arm_of_two_links_has_a_capsule_for_each():
-    first, triangles = box((1.0, 0.1, 0.1))
-    second, _ = box((0.1, 1.0, 0.1), (1.0, 0.0, 0.0))
-    mesh = np.concatenate([first, second]), np.concatenate([triangles, triangles + len(first)])
+    mesh = meshes.join(box((1.0, 0.1, 0.1)), box((0.1, 1.0, 0.1), (1.0, 0.0, 0.0)))
     ends, radii = capsules(mesh, 2)
     best, radius = along_box(np.array((1.0, 0.1, 0.1)))
     assert union(ends, radii) < 1.2 * 2 * union(best[None], np.array([radius]))
-
-
-# --- the least capsules of groups
 
 
 @pytest.mark.parametrize("tapered", [False, True])
@@ -137,9 +124,7 @@ def test_radii_to_begin_with_are_two_for_each_segment(medial):
     ends, segments = np.array([(-1.0, 0, 0), (1.0, 0, 0)]), np.array([(0, 1)], np.int32)
     with pytest.raises(medial.InvalidInputError, match="Expected two radii for each of 1 segments"):
         medial.cover_by_capsules(ends, segments, *mesh, radii=np.zeros(1))
-    around = medial.CoverMode.AROUND
-    found = medial.cover_by_capsules(
-        ends, segments, *mesh, radii=np.ones(2), mode=around, tapered=False, places=2000
-    )
+    options = {"mode": medial.CoverMode.AROUND, "tapered": False, "places": 2000}
+    found = medial.cover_by_capsules(ends, segments, *mesh, radii=np.ones(2), **options)
     assert np.array_equal(found.ends, ends)  # the segment leaves the solid, and stays
     assert np.allclose(found.radii, 1.4, rtol=0.01) and found.farthest == 0.0

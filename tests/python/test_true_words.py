@@ -11,14 +11,10 @@ from medial_axis.core.errors import DegenerateInputError, Severe
 from medial_axis.core.settings import SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
-from support.meshes import join, torus
+from support.meshes import join, shape_of, torus
 from support.thick_meshes import block, ellipsoid, lathe
 
 NO_FACES = np.zeros((0, 3), np.int32)
-
-
-def shape_of(mesh):
-    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
 
 
 def linked_tubes():
@@ -62,9 +58,8 @@ def test_missed_walls_are_red():
 
 @pytest.mark.parametrize("thickness", [0.002, 0.0003, 1e-5])
 def test_samples_on_faces_have_no_noise(thickness):
-    found = measure_thickness(
-        shape_of(block(1.0, 1.0, thickness)), Settings(budget=12_000), ThicknessSettings()
-    )
+    plate = shape_of(block(1.0, 1.0, thickness))
+    found = measure_thickness(plate, Settings(budget=12_000), ThicknessSettings())
     assert found.noise == 0.0
     assert not any("scatter" in text or "Noise" in text for text in found.warnings)
 
@@ -72,12 +67,7 @@ def test_samples_on_faces_have_no_noise(thickness):
 @pytest.mark.parametrize("copies", (1, 2))
 def test_a_twisted_sheet_is_told_to_get_thickness(copies):
     """Lower thresholds would not help: the sheet bounds nothing."""
-    corners = (
-        (0.0498759, 0.964456, 0.0949991),
-        (0.042335, 0.96222, 0.0980526),
-        (0.0418548, 0.961535, 0.096869),
-        (0.049267, 0.963762, 0.0939126),
-    )
-    sheet = np.array(corners), np.array([(3, 2, 1), (3, 1, 0)] * copies)
+    corners = [(0.0498759, 0.964456, 0.0949991), (0.042335, 0.96222, 0.0980526)]
+    corners += [(0.0418548, 0.961535, 0.096869), (0.049267, 0.963762, 0.0939126)]
     with pytest.raises(DegenerateInputError, match="open sheet.*give it thickness"):
-        compute_axis(shape_of(sheet), Settings())
+        compute_axis(shape_of((corners, [(3, 2, 1), (3, 1, 0)] * copies)), Settings())

@@ -30,19 +30,11 @@ def test_facets_that_are_turned_over_tell_no_plane():
     vertices, triangles, normals, facet, facing = sheet()
     turned = facet == AROUND + 5  # in the second row
     normals[turned] *= -1.0
-    made = ThinSheets(
-        vertices,
-        np.full(len(vertices), WALL / 2),
-        np.zeros(len(vertices), bool),
-        triangles,
-        np.zeros(len(triangles), np.int32),
-        facet,
-        facing | turned,
-        np.zeros(len(triangles), bool),
-        normals,
-        np.zeros_like(normals),
-        1,
-    )
+    count = len(triangles)
+    of_vertices = np.full(len(vertices), WALL / 2), np.zeros(len(vertices), bool)
+    of_triangles = triangles, np.zeros(count, np.int32), facet, facing | turned
+    of_triangles += np.zeros(count, bool), normals, np.zeros_like(normals)
+    made = ThinSheets(vertices, *of_vertices, *of_triangles, 1)
     found = carried(made, Walls(*pipe(AROUND, 1.0, 1.0, WALL, 2.0), np.zeros((0, 2), np.int32)))
     moves = found.vertices - vertices
     np.testing.assert_allclose(moves[:AROUND, 2], -0.05, atol=1e-9)

@@ -7,11 +7,10 @@ It is mypy; skipped by name where there is none. `build_addon.py test --only lin
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 ADDON = ROOT / "blender_addon"
 
 RIGHT = """

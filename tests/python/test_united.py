@@ -31,8 +31,5 @@ def test_each_item_has_the_smallest_that_it_is_connected_with(seed):
 
 
 def test_a_long_chain_in_any_order_is_one():
-    order = np.random.default_rng(0).permutation(300_000)
-    assert not united(len(order), np.column_stack((order[:-1], order[1:]))).any()
-    assert not united(
-        len(order), np.column_stack((np.arange(299_999), np.arange(1, 300_000)))
-    ).any()
+    for order in (np.random.default_rng(0).permutation(300_000), np.arange(300_000)):
+        assert not united(len(order), np.column_stack((order[:-1], order[1:]))).any()

@@ -4,7 +4,6 @@
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 from medial_axis.core.axis import topology
 from medial_axis.core.axis import verdict as verdicts
@@ -14,15 +13,9 @@ from medial_axis.core.errors import Severe
 from medial_axis.core.settings import SamplingMode, Settings
 from medial_axis.core.shape.shape import Shape
 from support.meshes import icosphere
+from support.thick_meshes import block
 
-CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
-FACES = np.array(
-    [
-        *([0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]),
-        *([2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]),
-    ],
-    np.int32,
-)
+CUBE, FACES = block(2.0, 2.0, 2.0)
 
 
 def computed(points, triangles, **settings):
@@ -35,20 +28,17 @@ def seen(found):
 
 def test_a_cube_is_good_and_the_sentence_says_why_it_was_sampled():
     found = computed(CUBE, FACES)
-    count = len(found.chosen.samples.points)
+    said = f"Sampled {len(found.chosen.samples.points):,} points, "
     assert seen(found).light is Light.GOOD
-    assert seen(found).sentence == (
-        f"Sampled {count:,} points, because the mesh has too few vertices."
-    )
+    assert seen(found).sentence == f"{said}because the mesh has too few vertices."
 
 
 def test_vertices_and_samples_that_were_asked_for():
-    vertices = computed(*icosphere(4)[:2], sampling=SamplingMode.VERTICES)
+    vertices = computed(*icosphere(4), sampling=SamplingMode.VERTICES)
     assert plainly(vertices.chosen) == "Used the 2,562 vertices as they are."
     faces = computed(CUBE, FACES, sampling=SamplingMode.SURFACE, samples=1000)
-    assert plainly(faces.chosen) == (
-        f"Sampled {len(faces.chosen.samples.points):,} points of the surface."
-    )
+    count = len(faces.chosen.samples.points)
+    assert plainly(faces.chosen) == f"Sampled {count:,} points of the surface."
 
 
 def test_an_open_mesh_is_to_be_looked_at():
@@ -58,7 +48,7 @@ def test_an_open_mesh_is_to_be_looked_at():
 
 
 def test_samples_that_are_too_sparse_are_looked_at():
-    found = computed(*icosphere(1)[:2], sampling=SamplingMode.VERTICES, epsilon=0.05)
+    found = computed(*icosphere(1), sampling=SamplingMode.VERTICES, epsilon=0.05)
     assert seen(found).light is Light.LOOK
     assert "so the axis may be wrong" in seen(found).sentence
 
@@ -84,7 +74,7 @@ def test_a_few_words_stand_for_sentences_that_exist():
 def test_a_few_words_of_good_open_and_unknown_results():
     good = seen(computed(CUBE, FACES))
     assert in_short(good.sentence) == f"{good.sentence.split()[1]} samples"
-    assert in_short(plainly(computed(*icosphere(4)[:2]).chosen)) == "2,562 vertices"
+    assert in_short(plainly(computed(*icosphere(4)).chosen)) == "2,562 vertices"
     assert in_short(seen(computed(CUBE, FACES[:-1])).sentence) == "Openings were closed"
     assert in_short("Something new (of 3); do this.") == "Something new"
 

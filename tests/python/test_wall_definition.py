@@ -2,17 +2,18 @@
 """Walls by their definition: random solids against it, and small ones that once were wrong."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.settings import Settings, ThickenSettings, ThicknessSettings
-from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thicken import thicken
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
-from support import meshes
-from support.meshes import join
+from support import topology
+from support.meshes import join, shape_of, write_off
+from support.plates import prism, wedge
 from support.thick_meshes import block, lathe, shell
 from support.wall_truth import distances, slanted_plate, tube, turned, turned_part, walls
 
@@ -23,15 +24,13 @@ FLAT = Settings(smooth=False)
 
 
 def measure(mesh, settings=FLAT, single=False, **wanted):
-    shape = Shape(np.asarray(mesh[0], float), np.asarray(mesh[1], np.int32), single=single)
+    shape = replace(shape_of(mesh), single=single)
     return measure_thickness(shape, settings, ThicknessSettings(**wanted))
 
 
 def places_of(found, count, rng):
     """Some places between walls inside of faces, the thinnest among them, and their faces."""
-    shape = found.shape
-    a, b, c = shape.points[shape.triangles].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
+    normals = topology.vector_areas(found.shape.points, found.shape.triangles)
     face = found.surface.face_of_triangles
     inside = np.ones(len(found.points), bool)
     first = np.full(len(found.points), -1)
@@ -44,9 +43,6 @@ def places_of(found, count, rng):
     some = some[np.argsort(found.lengths[some], kind="stable")]
     rows = np.union1d(some[: count // 2], rng.choice(some, min(len(some), count // 2)))
     return rows, first[rows]
-
-
-# --- random solids
 
 
 @pytest.mark.parametrize("away", AWAY)
@@ -94,8 +90,6 @@ def test_pipes_are_as_thick_as_their_walls(seed, away):
     assert measure(mesh).minimum == pytest.approx(thickness, rel=1e-6)
     assert measure(mesh, Settings()).minimum > 0.98 * thickness
 
-
-# --- solids that once were wrong
 
 # A cube and a box at a slant that sticks out of its top, as one solid: at corners convex edges end where reflex ones
 # begin, and faces 15 degrees apart are smooth.
@@ -167,9 +161,8 @@ def test_a_lid_is_measured_where_it_is():
 
 
 def test_thicken_leaves_a_frustum_alone():
-    points, triangles = frustum(32)
-    shape = Shape(np.asarray(points, float), np.asarray(triangles, np.int32))
-    done = thicken(shape, Settings(), ThickenSettings(limit=0.25, subdivide=True))
+    settings = ThickenSettings(limit=0.25, subdivide=True)
+    done = thicken(shape_of(frustum(32)), Settings(), settings)
     assert not done.moves.any() and not done.left.patches
 
 
@@ -213,13 +206,9 @@ def test_a_square_pin_is_seen(wide):
 def test_a_wedge_has_a_second_figure(angle, seed):
     """A web of 1.26 ends in a sharp edge, towards which the least thickness is none."""
     web, nose = 1.26, 1.26 / np.tan(np.radians(angle))
-    points = np.array([(0, 0, 0), (nose + 3, 0, 0), (nose + 3, 0, web), (nose, 0, web)])
-    points = np.concatenate((points, points + np.array((0, 2, 0))))
-    quads = [(0, 1, 2, 3), (7, 6, 5, 4)] + [
-        ((i + 1) % 4, i, i + 4, (i + 1) % 4 + 4) for i in range(4)
-    ]
-    triangles = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
-    mesh = turned((points, triangles), np.random.default_rng(seed), 10.0)
+    outline = [(0, 0), (nose + 3, 0), (nose + 3, web), (nose, web)]
+    mesh = prism(outline, [(0, 1, 2), (0, 2, 3)], 2.0)
+    mesh = turned(mesh, np.random.default_rng(seed), 10.0)
     # By default a bend of 30 degrees or less is one of a smooth surface, which has other normals.
     for settings in (FLAT, Settings()) if angle > 31.0 else (FLAT,):
         found = measure(mesh, settings)
@@ -229,31 +218,21 @@ def test_a_wedge_has_a_second_figure(angle, seed):
 
 def test_both_figures_are_reported(tmp_path, capsys):
     """A wedge with an edge of 30 degrees beside a plate: all of its faces meet at sharp edges."""
-    slant = 3.0 * np.array((np.cos(np.radians(30.0)), np.sin(np.radians(30.0))))
-    outline = np.array([(0.0, 0.0), (3.0, 0.0), slant])
-    wedge = np.array([(x, y, z) for y in (0.0, 2.0) for x, z in outline])
-    sides = [t for i, j in ((0, 1), (1, 2), (2, 0)) for t in ((i, i + 3, j + 3), (i, j + 3, j))]
-    mesh = join((wedge, np.array([(0, 1, 2), (3, 5, 4), *sides])), block(4, 4, 1.26, (0, 8, 0)))
-    meshes.write_off(tmp_path / "wedge.off", mesh)
+    path = write_off(tmp_path / "wedge.off", join(wedge(), block(4, 4, 1.26, (0, 8, 0))))
     out = tmp_path / "wedge.json"
-    cli.main(["thickness", str(tmp_path / "wedge.off"), str(out), "--limit", "1"])
+    cli.main(["thickness", path, str(out), "--limit", "1"])
     report = json.loads(out.read_text())
     assert report["minimum"] < 0.1
     assert report["minimum_parallel"] == pytest.approx(1.26, rel=1e-6)
     assert "(1.26 between nearly parallel walls)" in capsys.readouterr().out
 
 
-# --- the rounding of the input
-
-
 @pytest.mark.parametrize("offset", [0.0, 3e5, 1e6])
 def test_the_gate_sees_far_from_the_origin(tmp_path, capsys, offset):
     points, triangles = block(1.0, 1.0, 0.02)
-    path = tmp_path / "plate.off"
-    meshes.write_off(path, (np.asarray(points) + offset, triangles))
-    limits = ("0.1", "0.02")
-    for limit in limits:
-        code = cli.main(["thickness", str(path), str(tmp_path / f"{limit}.json"), "--limit", limit])
+    path = write_off(tmp_path / "plate.off", (points + offset, triangles))
+    for limit in ("0.1", "0.02"):
+        code = cli.main(["thickness", path, str(tmp_path / f"{limit}.json"), "--limit", limit])
         report = json.loads((tmp_path / f"{limit}.json").read_text())
         assert (code == 5) == (report["minimum"] < report["limit"]) == bool(report["patches"])
     capsys.readouterr()
@@ -262,7 +241,7 @@ def test_the_gate_sees_far_from_the_origin(tmp_path, capsys, offset):
 
 def test_rounding_that_hides_a_limit_is_told():
     points, triangles = block(1.0, 1.0, 0.02)
-    found = measure((np.asarray(points) + 3e5, triangles), Settings(), single=True)
+    found = measure((points + 3e5, triangles), Settings(), single=True)
     parts = find_thin_parts(found, 0.1)
     assert parts.minimum >= parts.limit and not parts.patches
     assert any("rounded" in str(warning) for warning in found.warnings)
@@ -272,18 +251,8 @@ def test_rounding_that_hides_a_limit_is_told():
 def test_walls_at_exactly_120_degrees_do_not_depend_on_the_pose(seed):
     rng = np.random.default_rng(seed)
     angle = 2 * np.pi * np.arange(3) / 3
-    outline = np.column_stack((np.cos(angle), np.sin(angle)))
-    points = np.concatenate([np.column_stack((outline, np.full(3, h))) for h in (0.0, 3.0)])
-    triangles = [(0, 2, 1), (3, 4, 5)]
-    triangles += [
-        t
-        for i in range(3)
-        for t in ((i, (i + 1) % 3, 3 + (i + 1) % 3), (i, 3 + (i + 1) % 3, 3 + i))
-    ]
-    mesh = points, np.array(triangles)
-    plain = find_thin_parts(measure(mesh), 0.3).share
-    assert (
-        0.2
-        < plain
-        == pytest.approx(find_thin_parts(measure(turned(mesh, rng, 0.0)), 0.3).share, rel=0.08)
+    mesh = prism(np.column_stack((np.cos(angle), np.sin(angle))), [(0, 1, 2)], 3.0)
+    plain, posed = (
+        find_thin_parts(measure(some), 0.3).share for some in (mesh, turned(mesh, rng, 0.0))
     )
+    assert 0.2 < plain == pytest.approx(posed, rel=0.08)

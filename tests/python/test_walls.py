@@ -17,17 +17,18 @@ from medial_axis.core.samples.density import Density
 from medial_axis.core.samples.next_amount import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings, Side
-from medial_axis.core.shape.shape import Shape
-from support import meshes, thin_solids
-from support.thick_meshes import block, lathe, pipe
+from support import meshes, thin_solids, topology
+from support.meshes import shape_of
+from support.plates import prism
+from support.poses import random_turn
+from support.thick_meshes import block, ellipsoid, lathe, pipe
 
 from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
 AREA = 1.0  # of the sheet of a plate
-TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
-TURN[:, 0] *= np.sign(np.linalg.det(TURN))
+TURN = random_turn(3)
 
 
 def plate(thickness, turned=False):
@@ -108,19 +109,14 @@ def test_sheets_without_thickness_bound_nothing():
     """A sheet that is there twice, and rotated, next to a block."""
     sheet = np.array([(1, 1, 0), (2, 1, 0), (2, 2, 0), (1, 2, 0)], float)
     twice = np.array([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], np.int32)
-    block = meshes.box((1, 1, 1), (0.3, 0.3, 0.3))
-    found = computed(meshes.join((sheet, twice), block))
+    found = computed(meshes.join((sheet, twice), meshes.box((1, 1, 1), (0.3, 0.3, 0.3))))
     assert found.chosen.samples.points.max() < 0.5 and not said(found)
     assert sum("were left out" in text for text in found.warnings) == 2
 
 
 def test_close_walls_of_overlapping_parts_are_said_but_not_refined():
     """The closest walls of overlapping parts are slivers between them."""
-    thin, block = plate(0.015), meshes.box((1, 1, 1), (0.2, 0.2, 0.2))
-    both = (
-        np.concatenate((thin[0], block[0] + (0.41, 0.41, 0.0))),
-        np.concatenate((thin[1], block[1] + len(thin[0]))),
-    )
+    both = meshes.join(plate(0.015), block(0.4, 0.4, 0.4, (0.41, 0.41, 0.0)))
     found = computed(both, budget=20_000)
     assert found.chosen.samples.buried > 0
     assert said(found) and found.points < 5_000
@@ -149,8 +145,7 @@ def test_two_linked_thin_tubes():
     two = one[0][:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), one[1]
     found = computed(meshes.join(one, two), SamplingMode.SURFACE, samples=1000)
     assert said(found)
-    density = found.density
-    assert (density.median > density.limit) == (density.share > 0.5)
+    assert (found.density.median > found.density.limit) == (found.density.share > 0.5)
 
 
 def holed_block(along, across):
@@ -165,49 +160,34 @@ def holed_block(along, across):
 def test_a_block_with_many_tunnels(medial):
     mesh = holed_block(19, 7)
     assert medial.open_edges(*mesh) == 0
-    edges = len(np.unique(np.sort(mesh[1][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0))
-    assert len(mesh[0]) - edges + len(mesh[1]) == 2 - 2 * 133
+    assert topology.euler(mesh[1]) == 2 - 2 * 133
     found = computed(mesh, SamplingMode.SURFACE, samples=4000)
     assert said(found) and found.missed > 0.5
-    density = found.density
-    assert (density.median > density.limit) == (density.share > 0.5)
+    assert (found.density.median > found.density.limit) == (found.density.share > 0.5)
 
 
-@pytest.mark.parametrize("name", ["ball", "box", "ellipsoid"])
-def test_nothing_is_said_of_thick_shapes(name):
-    ball = meshes.icosphere(4)
-    mesh = {
-        "ball": ball,
-        "box": meshes.box((1, 1, 1)),
-        "ellipsoid": (ball[0] * (1.0, 0.7, 0.4), ball[1]),
-    }[name]
+@pytest.mark.parametrize(
+    "mesh",
+    [meshes.icosphere(4), meshes.box((1, 1, 1)), ellipsoid((1.0, 0.7, 0.4), 4)],
+    ids=["ball", "box", "ellipsoid"],
+)
+def test_nothing_is_said_of_thick_shapes(mesh):
     found = computed(mesh)
     assert not said(found) and found.missed == 0.0
 
 
 def test_a_wedge_is_not_thin_at_its_edge():
-    vertices = np.array([[x, y, z] for y in (0.0, 1.0) for x, z in ((0, 0), (1, 0), (1, 0.8))])
-    sides = [(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)]
-    found = computed((vertices, np.array(sides, np.int32)[:, ::-1].copy()), SamplingMode.SURFACE)
-    if found.axis.facets == 0:
-        found = computed((vertices, np.array(sides, np.int32)), SamplingMode.SURFACE)
+    mesh = prism([(0, 0), (1, 0), (1, 0.8)], [(0, 1, 2)], 1.0)
+    found = computed(mesh, SamplingMode.SURFACE)
     assert found.axis.facets > 100 and found.missed == 0.0
 
 
 def test_the_report_has_the_share(tmp_path, capsys):
-    vertices, triangles = plate(0.01)
-    lines = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
-    lines += [" ".join(map(repr, map(float, row))) for row in vertices]
-    lines += [" ".join(map(str, (3, *row))) for row in triangles.tolist()]
-    (tmp_path / "plate.off").write_text("\n".join(lines))
-    words = [str(tmp_path / "plate.off"), str(tmp_path / "plate.ma")]
+    words = [meshes.write_off(tmp_path / "plate.off", plate(0.01)), str(tmp_path / "plate.ma")]
     assert cli.main([*words, "--samples", "2000", "--sampling", "surface", "--json"]) == 0
     report = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert report["missed"] > 0.8
     assert any("missing or torn" in text for text in report["warnings"])
-
-
-# ---- distances
 
 
 def test_distances_are_those_of_a_box(medial):
@@ -257,19 +237,12 @@ def test_wanted_spacings_show_what_is_missed():
 
 def test_no_spacing_is_wanted_above_that_of_the_first_pass():
     """Vertices that are samples, too, make the mean spacing smaller than the distance of the other samples."""
-    places, far = np.eye(3), np.full(3, np.inf)
-    samples = Analysed(
-        points=places,
-        analysis=None,
-        density=Density(places, np.ones(3), far, places[:0], finest=0.5, limit=0.25),
-        spacing=0.5,
-        walls=Walls(
-            *(places, places, np.ones(3), np.ones(3), np.arange(3)),
-            distance=np.array([0.1, 0.6, 1.5]),
-        ),
-    )
-    plan = SimpleNamespace(effort=Effort(2, 1.0, 0.0625, 0.0625))
-    amount = next_amount(plan, samples, 200)
+    places, ones, far = np.eye(3), np.ones(3), np.full(3, np.inf)
+    density = Density(places, ones, far, places[:0], finest=0.5, limit=0.25)
+    distances = np.array([0.1, 0.6, 1.5])
+    walls = Walls(places, places, ones, ones, np.arange(3), distance=distances)
+    samples = Analysed(points=places, analysis=None, density=density, spacing=0.5, walls=walls)
+    amount = next_amount(SimpleNamespace(effort=Effort(2, 1.0, 0.0625, 0.0625)), samples, 200)
     sites, spacings = amount.sizing
     assert amount.count == 200 and sites.tolist() == places.tolist()
     assert spacings.tolist() == [0.05, 0.3, 0.5]
@@ -277,9 +250,8 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
 
 def plates_of(mesh, spacing, **settings):
     """The share of the samples on plates, and how they were chosen."""
-    shape = Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
     wanted = Settings(samples=4000, side=Side.INNER, **settings)
-    chosen = begin(shape, wanted, None, WHAT_IS_FREE, levels=True).chosen
+    chosen = begin(shape_of(mesh), wanted, None, WHAT_IS_FREE, levels=True).chosen
     assert chosen.samples.spacing == pytest.approx(spacing, rel=0.2)
     return float(chosen.samples.plates.mean()), chosen
 

@@ -9,16 +9,14 @@ import re
 import subprocess
 import sys
 import tarfile
+import tomllib
 import zipfile
-from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 ADDON = ROOT / "blender_addon"
-VERSION = re.search(
-    r'^version = "(.+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE
-).group(1)
+VERSION = tomllib.loads((ADDON / "blender_manifest.toml").read_text())["version"]
 CORE = {
     path.relative_to(ADDON).as_posix()
     for folder in ("commands", "core")

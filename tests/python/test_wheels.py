@@ -11,27 +11,19 @@ import sys
 import tomllib
 import zipfile
 from email import message_from_string
-from pathlib import Path
 
 import pytest
+from medial_axis.core.machine import native
+from support.package import ROOT
 
 from tools.packaging import pack, paths, wheels
 
-ROOT = Path(__file__).resolve().parents[2]
 LINUX = "lib/_medial.cpython-313-x86_64-linux-gnu.so"
-FILES = {
-    name: name.encode()
-    for name in (
-        *wheels.FRONT,
-        "core/axis/compute.py",
-        "commands/convert.py",
-        "core/notes.txt",
-        "ui/panel.py",
-        "manual/index.html",
-        "LICENSE",
-        LINUX,
-    )
-}
+PARTS = "core/axis/compute.py", "commands/convert.py"  # of the package
+OTHERS = "core/notes.txt", "ui/panel.py", "manual/index.html", "LICENSE"
+FILES = {name: name.encode() for name in (*wheels.FRONT, *PARTS, *OTHERS, LINUX)}
+VERSION = "1.2.3+g1a2b3c4d"
+INFO = f"medial_axis-{VERSION}.dist-info"
 COMPUTE = """
 import medial_axis, numpy
 points = numpy.random.default_rng(1).normal(size=(99, 3))
@@ -42,7 +34,7 @@ FILES["blender_manifest.toml"] = b'version = "1"\n\n[permissions]\n'
 
 @pytest.fixture(autouse=True)
 def version(monkeypatch):
-    monkeypatch.setattr(paths, "full_version", lambda: "1.2.3+g1a2b3c4d")
+    monkeypatch.setattr(paths, "full_version", lambda: VERSION)
 
 
 @pytest.mark.parametrize(
@@ -57,18 +49,18 @@ def version(monkeypatch):
 )  # fmt: skip
 def test_names(platform, module, tag):
     name, contents = wheels.wheel({**FILES, module: b"it"}, module, platform)
-    assert name == f"medial_axis-1.2.3+g1a2b3c4d-{tag}.whl"
+    assert name == f"medial_axis-{VERSION}-{tag}.whl"
     assert contents[f"medial_axis/{module}"] == b"it"
-    assert f"Tag: {tag}\n".encode() in contents["medial_axis-1.2.3+g1a2b3c4d.dist-info/WHEEL"]
+    assert f"Tag: {tag}\n".encode() in contents[f"{INFO}/WHEEL"]
 
 
 def test_a_wheel_has_its_module_and_nothing_of_blender():
     other = "lib/_medial.cpython-311-x86_64-linux-gnu.so"
     _, contents = wheels.wheel({**FILES, other: b""}, LINUX, "linux-x64")
     package = {name for name in contents if name.startswith("medial_axis/")}
-    wanted = {*wheels.FRONT, "core/axis/compute.py", "commands/convert.py", LINUX}
-    assert package == {f"medial_axis/{name}" for name in {*wanted, "lib/_medial.pyi"}}
-    assert "medial_axis-1.2.3+g1a2b3c4d.dist-info/licenses/LICENSE" in contents
+    wanted = {*wheels.FRONT, *PARTS, LINUX, "lib/_medial.pyi"}
+    assert package == {f"medial_axis/{name}" for name in wanted}
+    assert f"{INFO}/licenses/LICENSE" in contents
 
 
 def test_the_same_files_as_the_wheel_that_cmake_installs():
@@ -82,19 +74,18 @@ def test_the_same_files_as_the_wheel_that_cmake_installs():
 def test_metadata_is_that_of_the_project():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     _, contents = wheels.wheel(FILES, LINUX, "linux-x64")
-    info = "medial_axis-1.2.3+g1a2b3c4d.dist-info"
-    found = message_from_string(contents[f"{info}/METADATA"].decode())
-    assert (found["Name"], found["Version"]) == (project["name"], "1.2.3+g1a2b3c4d")
+    found = message_from_string(contents[f"{INFO}/METADATA"].decode())
+    assert (found["Name"], found["Version"]) == (project["name"], VERSION)
     assert (found["Summary"], found["License"]) == (project["description"], "GPL-3.0-or-later")
     assert found["Requires-Python"] == project["requires-python"]
     assert found.get_all("Requires-Dist") == project["dependencies"]
     command, start = next(iter(project["scripts"].items()))
-    assert f"{command} = {start}\n" in contents[f"{info}/entry_points.txt"].decode()
+    assert f"{command} = {start}\n" in contents[f"{INFO}/entry_points.txt"].decode()
 
 
 def test_record_has_each_file_with_its_hash():
     _, contents = wheels.wheel(FILES, LINUX, "linux-x64")
-    own = "medial_axis-1.2.3+g1a2b3c4d.dist-info/RECORD"
+    own = f"{INFO}/RECORD"
     rows = {row[0]: row[1:] for row in csv.reader(io.StringIO(contents[own].decode()))}
     assert set(rows) == set(contents) and rows.pop(own) == ["", ""]
     for name, (digest, size) in rows.items():
@@ -109,9 +100,9 @@ def test_zips_with_wheels_have_no_loose_module_and_nothing_old_stays(tmp_path, m
     (folder / "old.whl").touch()
     arm = "lib/_medial.cpython-311-aarch64-linux-gnu.so"
     pack.write_wheels({**FILES, arm: b"arm"}, folder)
-    of_x64 = "medial_axis-1.2.3+g1a2b3c4d-cp313-cp313-manylinux_2_28_x86_64.whl"
-    of_arm = "medial_axis-1.2.3+g1a2b3c4d-cp311-cp311-manylinux_2_28_aarch64.whl"
-    archives = [f"medial_axis-1.2.3+g1a2b3c4d-linux-{name}.zip" for name in ("arm64", "x64")]
+    of_x64 = f"medial_axis-{VERSION}-cp313-cp313-manylinux_2_28_x86_64.whl"
+    of_arm = f"medial_axis-{VERSION}-cp311-cp311-manylinux_2_28_aarch64.whl"
+    archives = [f"medial_axis-{VERSION}-linux-{name}.zip" for name in ("arm64", "x64")]
     assert sorted(path.name for path in folder.iterdir()) == sorted([of_x64, of_arm, *archives])
     with zipfile.ZipFile(folder / archives[1]) as archive:
         names = set(archive.namelist())
@@ -123,13 +114,9 @@ def test_zips_with_wheels_have_no_loose_module_and_nothing_old_stays(tmp_path, m
 
 
 def test_pip_installs_one_that_computes(medial, tmp_path):
-    from medial_axis.core.machine import native
-
     module = f"lib/{native.file().name}"
-    files = {
-        path.relative_to(paths.ADDON).as_posix(): path.read_bytes()
-        for path in paths.ADDON.rglob("*.py")
-    }
+    sources = paths.ADDON.rglob("*.py")
+    files = {path.relative_to(paths.ADDON).as_posix(): path.read_bytes() for path in sources}
     files.update({module: native.file().read_bytes(), "py.typed": b""})
     name, contents = wheels.wheel(files, module, "linux-x64")
     (tmp_path / name).write_bytes(pack.zipped(contents))

@@ -3,17 +3,13 @@
 (lipo, codesign, gh) is a stand-in that says what it was asked for.
 """
 
-import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from support.package import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.packaging import pack  # noqa: E402 - found through the line above
+from tools.packaging import pack
 
 MODULES = {  # by the artifact that a job of systems.yml uploads
     "modules-linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],
@@ -25,16 +21,17 @@ MODULES = {  # by the artifact that a job of systems.yml uploads
 }
 
 
-def commands(workflow, job):
-    """The commands of a job."""
+def commands(workflow):
+    """The commands of each job."""
     yaml = pytest.importorskip("yaml")
     text = (ROOT / ".github/workflows" / f"{workflow}.yml").read_text(encoding="utf-8")
-    return [step["run"] for step in yaml.safe_load(text)["jobs"][job]["steps"] if "run" in step]
+    jobs = yaml.safe_load(text)["jobs"].items()
+    return {name: [x["run"] for x in job.get("steps", ()) if "run" in x] for name, job in jobs}
 
 
 def step(workflow, job, words):
     """The only command of a job that has these words."""
-    (found,) = [command for command in commands(workflow, job) if words in command]
+    (found,) = [command for command in commands(workflow)[job] if words in command]
     return found
 
 
@@ -42,14 +39,8 @@ def run(command, folder, **environment):
     """As the service runs it; returns the exit code and what was said."""
     path = f"{folder / 'bin'}:/usr/bin:/bin"
     words = ["bash", "--noprofile", "--norc", "-e", "-c", command]
-    done = subprocess.run(
-        words,
-        cwd=folder,
-        env={"PATH": path, **environment},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    done = subprocess.run(words, cwd=folder, env={"PATH": path, **environment}, **output)
     return done.returncode, done.stdout
 
 
@@ -121,12 +112,9 @@ def test_a_release_has_zips_wheels_and_hashes(tmp_path, zips):
 
 def test_shell_of_all_steps_is_valid():
     """Also of those that nothing here can run."""
-    yaml = pytest.importorskip("yaml")
-    checked = 0
-    for file in (ROOT / ".github/workflows").glob("*.yml"):
-        for job in yaml.safe_load(file.read_text(encoding="utf-8"))["jobs"].values():
-            for one in filter(None, (one.get("run") for one in job.get("steps", ()))):
-                done = subprocess.run(["bash", "-n", "-c", one], capture_output=True, text=True)
-                assert done.returncode == 0, (one, done.stderr)
-                checked += 1
-    assert checked > 30 and shutil.which("bash")
+    files = (ROOT / ".github/workflows").glob("*.yml")
+    every = [one for file in files for job in commands(file.stem).values() for one in job]
+    for one in every:
+        done = subprocess.run(["bash", "-n", "-c", one], capture_output=True, text=True)
+        assert done.returncode == 0, (one, done.stderr)
+    assert len(every) > 30

@@ -6,26 +6,22 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute, refilter
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.settings import (
-    Between,
-    SamplingMode,
-    Settings,
-    SidesFrom,
-    ThicknessSettings,
-)
+from medial_axis.core.settings import Between, SamplingMode, Settings, SidesFrom, ThicknessSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
+from support import topology
 from support.meshes import icosphere, join, write_off
 from support.thick_meshes import block
 
+# Walls 0.05 apart.
 WIDTHS = [
-    (Between.WALL, block(1.0, 0.7, 0.05), 0.05),
-    (Between.GAP, join(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45))), 0.05),
+    (Between.WALL, block(1.0, 0.7, 0.05)),
+    (Between.GAP, join(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))),
 ]
 
 
-def settings(**others):
-    return Settings(sides=SidesFrom.WRAP, **others)
+def settings(samples=3000, sides=SidesFrom.WRAP, **others):
+    return Settings(sides=sides, samples=samples, sampling=SamplingMode.SURFACE, **others)
 
 
 def torn(share=0.85, seed=3):
@@ -44,8 +40,7 @@ def test_the_wrap_is_closed_outward_and_at_its_distance(medial):
     wrapped, faces = medial.wrap(points, triangles, 0.1, 0.005)
     assert medial.open_edges(wrapped, faces) == 0
     assert medial.solid_betti(wrapped, faces) == (1, 0, 0)
-    a, b, c = (wrapped[faces[:, k]] for k in range(3))
-    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 > 4.0
+    assert topology.volume(wrapped, faces) > 4.0
     diagonal = np.linalg.norm(np.ptp(points, axis=0))
     away = medial.surface_distances(wrapped, points, triangles)
     assert np.median(away) == pytest.approx(0.005 * diagonal, rel=0.05)
@@ -62,39 +57,36 @@ def test_a_scale_changes_nothing_but_the_scale(medial, scale):
 
 
 def test_a_soup_has_the_axis_of_its_ball():
-    found = compute(
-        *torn(), settings(wrap_opening=8.0, samples=3000, sampling=SamplingMode.SURFACE)
-    )
+    found = compute(*torn(), settings(wrap_opening=8.0))
     assert found.axis.level.betti == (1, 0, 0)
     assert found.settings.sides is SidesFrom.WRAP
-    assert "a wrap of the faces" in str(found.sides) and "closes openings of less than" in str(
-        found.sides
-    )
+    for words in ("a wrap of the faces", "closes openings of less than"):
+        assert words in str(found.sides)
     largest = found.axis.radius.max()
     assert 0.9 < largest < 1.0, "up to the faces and not to the wrap"
 
 
 def test_radii_are_those_up_to_the_faces():
     """A block, which needs no wrap: its largest ball has half its least extent, now and for other thresholds."""
-    points, triangles = block(1.0, 0.7, 0.4)
-    options = settings(samples=3000, sampling=SamplingMode.SURFACE)
-    found = compute(points, triangles, options)
+    found = compute(*block(1.0, 0.7, 0.4), settings())
     assert found.axis.radius.max() == pytest.approx(0.2, rel=1e-3)
-    again = refilter(found.key, settings(samples=3000, sampling=SamplingMode.SURFACE, theta=0.7))
+    again = refilter(found.key, settings(theta=0.7))
     assert again.radius.max() == pytest.approx(0.2, rel=1e-3)
     assert found.axis.structure.part_least_radius.max() <= found.axis.radius.max()
 
 
 def test_the_same_faces_without_a_wrap_have_their_own_analysis():
-    shape = block(1.0, 0.7, 0.4)
-    wrapped = compute(*shape, settings(samples=3000, sampling=SamplingMode.SURFACE))
-    plain = compute(*shape, Settings(samples=3000, sampling=SamplingMode.SURFACE))
+    wrapped, plain = (
+        compute(*block(1.0, 0.7, 0.4), settings(sides=sides))
+        for sides in (SidesFrom.WRAP, SidesFrom.AUTOMATIC)
+    )
     assert wrapped.key != plain.key and plain.axis.radius.max() == pytest.approx(0.2, rel=1e-9)
 
 
 def test_points_alone_are_refused():
+    cloud = np.random.default_rng(0).random((100, 3)), np.zeros((0, 3), np.int32)
     with pytest.raises(InvalidInputError, match="Expected faces for Inside Decided By Wrap"):
-        compute(np.random.default_rng(0).random((100, 3)), np.zeros((0, 3), np.int32), settings())
+        compute(*cloud, Settings(sides=SidesFrom.WRAP))
 
 
 def test_the_command_line_wraps(tmp_path, capsys):
@@ -128,15 +120,11 @@ def test_thin_soups_are_wrapped_or_refused(medial, seed):
             assert np.isfinite(wrapped).all() and medial.open_edges(wrapped, faces) == 0
 
 
-@pytest.mark.parametrize(("between", "mesh", "width"), WIDTHS)
-def test_lengths_are_those_between_the_faces(between, mesh, width):
-    found = measure_thickness(
-        Shape(*mesh),
-        settings(samples=4000, sampling=SamplingMode.SURFACE),
-        ThicknessSettings(between=between),
-    )
+@pytest.mark.parametrize(("between", "mesh"), WIDTHS)
+def test_lengths_are_those_between_the_faces(between, mesh):
+    found = measure_thickness(Shape(*mesh), settings(4000), ThicknessSettings(between=between))
     facing = np.isfinite(found.lengths)
     assert facing.sum() > 200
-    assert np.median(found.lengths[facing]) == pytest.approx(width, rel=5e-3)
-    assert found.shape.offset > 0.01 * width, "the walls of the wrap are elsewhere"
+    assert np.median(found.lengths[facing]) == pytest.approx(0.05, rel=5e-3)
+    assert found.shape.offset > 0.01 * 0.05, "the walls of the wrap are elsewhere"
     assert sum("walls of the wrap" in sentence for sentence in found.warnings) == 1

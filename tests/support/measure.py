@@ -37,6 +37,17 @@ def inner_facets(mesh, shape: Shape) -> NDArray[np.bool_]:
     return np.logical_and.reduceat(inside[mesh.face_vertices], mesh.face_offsets[:-1])
 
 
+def selected_inner(medial, analysis) -> set[tuple[int, int]]:
+    """The Delaunay edges of the inner facets that an analysis selects."""
+    chosen = analysis.select(side=medial.Side.INNER)
+    return set(map(tuple, analysis.edges[chosen].tolist()))
+
+
+def jaccard(a: set, b: set) -> float:
+    """The share that two sets have in common."""
+    return len(a & b) / len(a | b)
+
+
 def keep(mesh, facets: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """face_offsets and face_vertices of some facets."""
     sizes = np.diff(mesh.face_offsets)

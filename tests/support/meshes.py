@@ -184,14 +184,20 @@ def moved(mesh: Mesh, by: tuple = (0.0, 0.0, 0.0), scale: float | tuple = 1.0) -
     return np.asarray(mesh[0], float) * scale + by, mesh[1]
 
 
-def shape_of(mesh: Mesh, normals: NDArray[np.float64] | None = None) -> Any:
-    """The same as a `Shape` of the add-on."""
+def shape_of(mesh: Mesh, *others: Any) -> Any:
+    """The mesh as the add-on takes it, whatever types its numbers have; `others` are the fields behind the faces."""
     from medial_axis.core.shape.shape import Shape
 
     points, triangles = mesh
     return Shape(
-        np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32), normals
+        np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32), *others
     )
+
+
+def below(mesh: Mesh, height: float) -> Mesh:
+    """The mesh with the faces only whose middle is lower than that; all vertices stay."""
+    vertices, triangles = mesh
+    return vertices, triangles[vertices[triangles].mean(axis=1)[:, 2] < height]
 
 
 def flip(mesh: Mesh) -> Mesh:
@@ -217,6 +223,14 @@ def write_off(path: Path, mesh: Mesh) -> str:
     rows = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
     rows += [" ".join(map(repr, row)) for row in vertices.tolist()]
     rows += [f"3 {a} {b} {c}" for a, b, c in triangles.tolist()]
+    path.write_text("\n".join(rows) + "\n")
+    return str(path)
+
+
+def write_obj(path: Path, mesh: Mesh) -> str:
+    """Writes every coordinate in full, and returns the path as text."""
+    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh[0].tolist()]
+    rows += [f"f {a} {b} {c}" for a, b, c in (mesh[1] + 1).tolist()]
     path.write_text("\n".join(rows) + "\n")
     return str(path)
 

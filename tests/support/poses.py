@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Linear blend skinning, as any program does it."""
+"""Rotations, and linear blend skinning, as any program does it."""
 
 import numpy as np
+
+
+def swapped(name):
+    """The name of the mirror image of a bone."""
+    return name[:-1] + {"L": "R", "R": "L"}[name[-1]] if name[-2:] in (".L", ".R") else name
 
 
 def turn(axis, angle):
@@ -9,6 +14,12 @@ def turn(axis, angle):
     x, y, z = np.asarray(axis) / np.linalg.norm(axis)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def random_turn(seed):
+    """(3, 3) a rotation by any angle."""
+    frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return frame * np.sign(np.linalg.det(frame))
 
 
 def random_turns(bones, seed, most=0.6):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The topology of a triangle mesh: uses of edges, components, Euler characteristic, volume."""
+"""The topology of a triangle mesh, with its areas and volume: uses of edges, components, Euler characteristic."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,22 @@ def components(triangles: Ints) -> int:
     p, q = ends.reshape(-1, 2).T
     graph = coo_array((np.ones(len(p)), (p, q)), shape=(len(rows), len(rows)))
     return connected_components(graph, directed=False)[0]
+
+
+def vector_areas(points: NDArray[np.float64], triangles: Ints) -> NDArray[np.float64]:
+    """(t, 3) normals of triangles, as long as these are large."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    return np.cross(b - a, c - a) / 2
+
+
+def area(points: NDArray[np.float64], triangles: Ints) -> float:
+    return float(np.linalg.norm(vector_areas(points, triangles), axis=1).sum())
+
+
+def unit_normals(points: NDArray[np.float64], triangles: Ints) -> NDArray[np.float64]:
+    """(t, 3) of triangles that have an area."""
+    normals = vector_areas(points, triangles)
+    return normals / np.linalg.norm(normals, axis=1)[:, None]
 
 
 def volume(points: NDArray[np.float64], triangles: Ints) -> float:
