@@ -54,6 +54,8 @@ def _complete(wanted: argparse.Namespace) -> None:
         raise ValueError(
             "Expected names of files, found an empty one; look whether a variable is unset"
         )
+    if not wanted.inputs and not inside_blender():
+        raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
@@ -61,8 +63,6 @@ def _complete(wanted: argparse.Namespace) -> None:
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong
-    if not wanted.inputs and not inside_blender():
-        raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
     if not paged and has_number(Path(output).name) != (wanted.frames is not None):
         raise ValueError(
             "Expected --frames together with #### in OUTPUT, found one without the other"

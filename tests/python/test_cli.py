@@ -154,6 +154,10 @@ def test_degrees_are_exact_where_it_matters():
     [
         ([], "required"),
         (["a.off"], "found one path"),
+        *(
+            (words.split(), "found one path")
+            for words in ("thickness a.stl --limit 1", "balls a.obj")
+        ),
         (["a.off", "a.ma", "--theta", "x"], "invalid float"),
         (["a.off", "a.ma", "--theta", "200"], "Expected theta from"),
         (["a.off", "a.ma", "--side", "left"], "invalid choice"),

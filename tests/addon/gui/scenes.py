@@ -34,7 +34,10 @@ THETA_LEFT, THETA_RIGHT = (112, 153), (78, 153)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
 SKELETON, THICKNESS = (150, 208), (150, 234)
-RESULT, REBUILD = (150, 208), (150, 286)  # where there is a result; the other below the closed first
+RESULT, REBUILD = (
+    (150, 208),
+    (150, 286),
+)  # where there is a result; the other below the closed first
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 360), (102, 386)
 MEASURE_THICKNESS, THICKEN = (102, 382), (102, 563)
