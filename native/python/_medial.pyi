@@ -1937,8 +1937,9 @@ def reduce_sheets(
     Nodes stay. Spheres on the border of a sheet merge along it, those of radius 0 to where one of them was; spheres
     inside a sheet merge as in `reduce_sphere_mesh`, without a fit. What is straight or flat keeps no
     sphere that changes nothing, however many are wanted. Triangles of a sheet in one plane become polygons, each with
-    one border; a flat sheet with a hole is two of them or more. The homotopy type stays. None if fewer spheres are
-    wanted than there are nodes and bent borders: `reduce_sphere_mesh` makes a better solid of so few.
+    one border; a flat sheet with a hole is two of them or more. The homotopy type stays, and each sheet keeps a
+    triangle. None if fewer spheres are wanted than there are nodes and bent borders: `reduce_sphere_mesh` makes a
+    better solid of so few.
 
     Parameters
     ----------

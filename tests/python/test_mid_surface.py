@@ -24,6 +24,7 @@ from support import distance, mid_surfaces, reference, topology
 from support.meshes import shape_of, write_off
 from support.thick_meshes import block, lathe, pipe
 from support.thin_solids import turned, union
+from test_reduce import grid
 
 
 def sheets_of(mesh, settings=Settings(samples=4000), **wanted):
@@ -206,6 +207,19 @@ def test_a_lens_with_a_flat_rim_keeps_its_thickness_there(t, rim, face):
     assert_falls_with_the_square(found, t, rim, face)
 
 
+@pytest.mark.parametrize("inner, away", [(0.7, 0.5), (0.6, 0.6)])
+def test_a_bowl_that_thins_to_its_brim_keeps_its_volume(inner, away):
+    """Between two spheres. Edges as long as its bottom is thick took away up to two thirds of it."""
+    brim = (1 + away**2 - inner**2) / (2 * away)
+    outside = np.linspace(-np.pi / 2, np.arcsin(brim), 30)
+    inside = np.linspace(np.arcsin((brim - away) / inner), -np.pi / 2, 30)[1:]
+    radius = np.append(np.cos(outside), inner * np.cos(inside))
+    radius[[0, -1]] = 0.0
+    height = np.append(np.sin(outside), away + inner * np.sin(inside))
+    found = sheets_of(lathe(np.column_stack((radius, height)).tolist(), 48))
+    assert found.sheets == 1 and 0.85 < found.share < 1.1
+
+
 @pytest.mark.parametrize(
     "mesh, samples", [(block(1.0, 0.9, 0.8), 4000), (pipe(32, 1.0, 1.0, 0.5, 0.5), 2000)]
 )
@@ -378,6 +392,17 @@ def test_a_grid_keeps_the_edges_round_it():
     found = {tuple(place) for place in places.tolist()}
     assert found >= {tuple(place) for place in ring.tolist()}
     assert even_quads._grid(np.delete(ring, 1, axis=0)) is None
+
+
+@pytest.mark.parametrize("halves", (1, 2))
+def test_bent_sheets_have_few_faces_and_none_is_lost_however_few_are_wanted(halves):
+    """A saddle, whole or as two sheets that meet along a line with two nodes."""
+    places, _, triangles, _ = grid(17, 17)
+    places[:, 2] = 0.2 * (places[:, 0] - 3) * (places[:, 1] - 2)
+    part = (halves * places[triangles].mean(axis=1)[:, 0] // 6.001).astype(np.int32)
+    sheets = CarriedSheets(places, triangles, part, np.full(triangles.shape, 0.5))
+    found = few_faces.few_faces(sheets, 1, None)
+    assert set(found.part) == set(range(halves)) and len(found.part) <= 6 * halves
 
 
 @pytest.mark.parametrize("past", (8.2, 9.5))

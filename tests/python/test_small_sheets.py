@@ -108,6 +108,16 @@ def test_the_border_between_two_sheets_stays(medial):
     assert sorted(set(found[0][:, 0].tolist())) == [0, 2.5, 6] and len(found[0]) == 6
 
 
+@pytest.mark.parametrize("wanted", range(1, 7))
+def test_a_bent_sheet_without_nodes_is_never_lost(medial, wanted):
+    """A saddle, however few vertices are wanted: it is a triangle at least, or it cannot be so small."""
+    vertices, *others = grid(9, 9)
+    x, y, _ = vertices.T
+    saddle = (np.column_stack((x, y, 0.2 * (x - x.mean()) * (y - y.mean()))), *others)
+    found = sheets(medial, saddle, np.zeros(len(others[1])), [], wanted)
+    assert found is None or (len(found[5]) >= 1 and len(found[0]) >= 3 and not len(found[6]))
+
+
 def test_threads_and_scale_change_no_sheet(medial):
     whole, size = computed("bracket"), 2.0**30
     part = np.repeat(whole.structure.part, np.diff(whole.face_offsets) - 2)

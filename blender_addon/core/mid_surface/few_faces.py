@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -83,7 +83,10 @@ def _groups(sheets: CarriedSheets) -> Longs:
 def _reduced(
     sheets: CarriedSheets, label: Ints, wanted: int, progress: Progress | None, shortest: float
 ) -> SheetFaces:
-    """The sheets with so many vertices, or all where that cannot be; triangles of different labels are not joined."""
+    """The sheets with so many vertices, or twice as many and so on where that cannot be.
+
+    Triangles of different labels are not joined.
+    """
     with own_errors() as module:
 
         def reduced(wanted: int) -> tuple[Any, ...] | None:
@@ -99,8 +102,9 @@ def _reduced(
                 progress=progress and progress.part(),
             )
 
-        found = reduced(wanted) or reduced(len(sheets.vertices))
-    places, _, row, offsets, corners, part, _ = cast("tuple[Any, ...]", found)
+        while (found := reduced(wanted)) is None:
+            wanted *= 2
+    places, _, row, offsets, corners, part, _ = found
     places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
     sheet = np.zeros(int(label.max()) + 1, np.int32)
     sheet[label] = sheets.part

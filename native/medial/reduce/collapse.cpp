@@ -220,6 +220,7 @@ class Collapser {
     if (gone(a) || gone(b)) return false;
     const Target target = target_of(a, b);
     if (!is_allowed(a, b, target) || !complex_.can_collapse(a, b) ||
+        (locks_ && locks_->ends_sheet(complex_, a, b)) ||
         (!allowed_.turns && (turns(a, b, target.sphere) || turns(b, a, target.sphere)))) {
       wait_at_both(a, b);
       return false;

@@ -42,6 +42,14 @@ bool SheetLocks::may_move(const SphereComplex& complex, int32_t a, int32_t b,
   return !is_sharp(a, spheres[a]) && !is_sharp(b, spheres[b]) && is_curve(complex, a, b);
 }
 
+bool SheetLocks::ends_sheet(const SphereComplex& complex, int32_t a, int32_t b) const {
+  return std::ranges::any_of(complex.triangles_of(a), [&](int32_t t) {
+    const auto& [p, q, r] = complex.triangle(t);
+    return (p == b || q == b || r == b) && is_curve(complex, p, q) && is_curve(complex, q, r) &&
+           is_curve(complex, r, p);
+  });
+}
+
 void SheetLocks::update(const SphereComplex& complex, int32_t vertex) {
   curve_[vertex] = curve_edges(complex, vertex);
   for (const int32_t v : complex.neighbours(vertex)) curve_[v] = curve_edges(complex, v);

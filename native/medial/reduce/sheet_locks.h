@@ -35,6 +35,8 @@ class SheetLocks {
   // edge is one of their curve, and neither is at the end of a curve or at a sharp edge.
   bool may_move(const SphereComplex& complex, int32_t a, int32_t b,
                 std::span<const Sphere> spheres) const;
+  // Returns whether a triangle at an edge is a sheet by itself, which a collapse would take away.
+  bool ends_sheet(const SphereComplex& complex, int32_t a, int32_t b) const;
   // Finds again which of a vertex and its neighbours are on curves, after a collapse.
   void update(const SphereComplex& complex, int32_t vertex);
 
