@@ -902,6 +902,13 @@ MUTATIONS = (
     ),
     Mutation(
         "reduce/collapse.cpp",
+        "(locks_ && locks_->ends_sheet(complex_, a, b)) ||",
+        "(locks_ && gone(a) && locks_->ends_sheet(complex_, a, b)) ||",
+        "the last triangle of a sheet collapses",
+        python=("test_small_sheets.py",),
+    ),
+    Mutation(
+        "reduce/collapse.cpp",
         "collapse_all({false, HUGE_VAL, locks_->shortest()}, 0, run)",
         "collapse_all({false, HUGE_VAL, 0}, 0, run)",
         "short edges of borders stay",

@@ -40,6 +40,13 @@ MUTATIONS = (
         "sheets have the thickness of others",
         "test_mid_surface.py",
     ),
+    _bug(
+        "mid_surface/mid_surface.py",
+        "_CURVED * float(thickness)",
+        "_CURVED * float(sheets.at_corners.max())",
+        "edges of sheets that thin out are as long as they are thick at most",
+        "test_mid_surface.py",
+    ),
     # ---- samples
     _bug(
         "samples/walls.py",

@@ -52,9 +52,14 @@ def assert_ordered(triangles):
 
 
 def assert_promises(study, points):
-    """The triangles are exactly the Delaunay facets with one side in and one out, and face the outer one."""
     surface = study.TightCocone(points)
     assert_watertight(points, surface)
+    assert_between_inner_and_outer_cells(study, points, surface)
+    return surface
+
+
+def assert_between_inner_and_outer_cells(study, points, surface):
+    """The triangles are exactly the Delaunay facets with one side in and one out, and face the outer one."""
     cells, neighbors, _ = study.delaunay(points)
     inner, outer = (surface.cell_side == int(x) for x in (study.Side.INNER, study.Side.OUTER))
     assert len(surface.cell_side) == len(cells) and (inner | outer).all()
@@ -63,7 +68,6 @@ def assert_promises(study, points):
     cell, slot = np.nonzero(inner[:, None] & outer[neighbors])
     wanted = lowest_first(np.take_along_axis(cells[cell], FACING[slot], axis=1))
     assert np.array_equal(surface.triangles, wanted[np.lexsort(wanted.T[::-1])])
-    return surface
 
 
 # Away from corner 0, 1, 2, 3 of a cell.
