@@ -19,6 +19,7 @@ from support import (  # noqa: E402
     alike,
     meshes,
     resampled,
+    topology,
 )
 from support.shape_meshes import MESHED  # noqa: E402
 
@@ -39,7 +40,7 @@ def axes(mesh: meshes.Mesh) -> tuple[dict, dict]:
     found, spacing = {}, {}
     for count in (4_000, 16_000, 64_000):
         found[count] = resampled.of_surface(mesh, count).axis
-        even = resampled.spacing(resampled.area(mesh), count)
+        even = resampled.spacing(topology.area(*mesh), count)
         spacing[count] = lambda places, even=even: np.full(len(places), even)
     samples, found["graded"] = resampled.graded(medial, mesh, 16_000)
     spacing["graded"] = lambda places: alike.spacings(samples, medial, places)

@@ -8,7 +8,7 @@ from medial_axis.core.mid_surface.cut_out_plates import cut_out_plate
 from medial_axis.core.mid_surface.mid_surface import mid_surface
 from medial_axis.core.settings import MidSurfaceSettings, Settings
 from medial_axis.core.shape.outward_faces import outward_shape
-from support import resampled, topology
+from support import topology
 from support.meshes import join, shape_of
 from support.thick_meshes import block
 from support.thin_solids import turned, union
@@ -30,7 +30,7 @@ def test_a_bridge_beside_a_window_belongs_to_the_sheet(scale):
     found = sheets((points * scale, triangles))
     assert found.sheets == topology.components(found.triangles) == 1
     assert topology.euler(found.triangles) == 0
-    area = resampled.area((found.vertices, found.triangles))
+    area = topology.area(found.vertices, found.triangles)
     assert area == pytest.approx(AREA * scale**2, rel=1e-5)
     np.testing.assert_allclose(found.of_vertices, T * scale, rtol=1e-4)
     assert found.share == pytest.approx(1.0, abs=1e-4) and len(found.part) < 10
@@ -39,7 +39,7 @@ def test_a_bridge_beside_a_window_belongs_to_the_sheet(scale):
 def test_plates_that_overlap_are_no_plate():
     """Their flat faces would count twice where they lie in each other: 1.4 in the place of 1.386."""
     found = sheets(join(*(union(((x, 0, 0), (x + 1, 0.7, T))) for x in (0, 0.98))))
-    assert 0.97 * 1.386 < resampled.area((found.vertices, found.triangles)) < 1.387
+    assert 0.97 * 1.386 < topology.area(found.vertices, found.triangles) < 1.387
 
 
 def middle(mesh, area):
@@ -78,7 +78,7 @@ def split():
 def test_the_middle_of_a_plate(make):
     points, triangles = make()
     found = middle((points, triangles), 0.69)
-    area = resampled.area((found.vertices, found.triangles))
+    area = topology.area(found.vertices, found.triangles)
     assert area == pytest.approx(0.7, rel=1e-5)
     heights = found.vertices[found.triangles][:, :, 2]
     assert heights == pytest.approx(points[:, 2].min() + T / 2, abs=1e-9)

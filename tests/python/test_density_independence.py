@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support import alike, meshes, resampled
+from support import alike, meshes, resampled, topology
 from support.shape_meshes import MESHED
 
 pytestmark = pytest.mark.oracle
@@ -11,7 +11,7 @@ pytestmark = pytest.mark.oracle
 
 def assert_alike(mesh, coarse, fine):
     axes = [resampled.of_surface(mesh, count).axis for count in (coarse, fine)]
-    spacing = resampled.spacing(resampled.area(mesh), coarse)
+    spacing = resampled.spacing(topology.area(*mesh), coarse)
     there, back = alike.mutual(*axes, lambda places: np.full(len(places), spacing))
     assert there <= 1.0 and back <= 1.0
 
@@ -40,7 +40,7 @@ def test_spacings_that_vary_by_ten_give_the_axis_of_even_ones(medial, name):
     even = resampled.of_surface(mesh, 16_000).axis
     local = alike.spacings(samples, medial, samples.points)
     assert np.quantile(local, 0.999) > 5 * np.quantile(local, 0.001)
-    ours = resampled.spacing(resampled.area(mesh), 16_000)
+    ours = resampled.spacing(topology.area(*mesh), 16_000)
     coarser = lambda places: np.maximum(alike.spacings(samples, medial, places), ours)
     there, back = alike.mutual(axis, even, coarser)
     assert there <= 1.0 and back <= 1.0

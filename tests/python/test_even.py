@@ -8,7 +8,7 @@ import medial_axis
 import numpy as np
 import pytest
 from medial_axis.core.axis.levels import hierarchy_of
-from support import crisp_measures, crisp_solids, crossing_triangles, meshes, resampled
+from support import crisp_measures, crisp_solids, crossing_triangles, meshes, topology
 from support.crisp_runs import Case
 from support.data import DATA
 from support.levels import betti_of_mesh
@@ -52,7 +52,7 @@ def euler(axis):
 
 
 def area_of(level):
-    return resampled.area((level.vertices, level.face_vertices.reshape(-1, 3)))
+    return topology.area(level.vertices, level.face_vertices.reshape(-1, 3))
 
 
 def test_two_edges_between_the_same_places_enclose_nothing():

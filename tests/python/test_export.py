@@ -17,6 +17,7 @@ from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
 from support.inputs import rotation
 from support.measure import polygons
+from support.topology import vector_areas
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 
@@ -168,11 +169,6 @@ def read_ply(path):
     return vertices, faces, edges
 
 
-def area_vectors(vertices, triangles):
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return np.cross(b - a, c - a) / 2
-
-
 # --- content
 
 
@@ -193,13 +189,13 @@ def test_ma_triangles_cover_each_polygon(axis, tmp_path):
     vertices, _, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
     counts = np.diff(axis.face_offsets)
     assert len(faces) == (counts - 2).sum()
-    areas = area_vectors(vertices[:, :3], faces)
+    areas = vector_areas(vertices[:, :3], faces)
     start = 0
     for polygon in polygons_of(axis):
         own = slice(start, start + len(polygon) - 2)
         assert set(faces[own].ravel()) == set(polygon)
         fan = np.column_stack([np.full(len(polygon) - 2, polygon[0]), polygon[1:-1], polygon[2:]])
-        whole = area_vectors(vertices[:, :3], fan).sum(axis=0)
+        whole = vector_areas(vertices[:, :3], fan).sum(axis=0)
         size = np.linalg.norm(whole)
         assert np.allclose(areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * size)
         assert (areas[own] @ whole > 0).all()  # all turn as the polygon does, none is empty
@@ -222,7 +218,7 @@ def test_triangles_of_polygons_with_straight_corners_have_area(tmp_path, scale):
     vertices = np.concatenate(turns)
     corners = np.split(np.arange(len(vertices)), np.cumsum([len(turn) for turn in turns])[:-1])
     points, _, faces = read_ma(export_axis(axis_of(vertices * scale, corners), tmp_path / "a.ma"))
-    areas = area_vectors(points[:, :3], faces)[:, 2]
+    areas = vector_areas(points[:, :3], faces)[:, 2]
     assert len(faces) == len(vertices) - 2 * len(turns)
     assert areas.min() > 0.4 * scale**2
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from . import distance, inputs, resampled, walls
+from . import distance, inputs, resampled, topology, walls
 from .meshes import Mesh, weld
 from .shape_meshes import MESHED
 from .shapes import MORE_SHAPES, SHAPES, Ellipsoid
@@ -51,7 +51,7 @@ class Solid:
 
     @cached_property
     def surface(self) -> float:
-        return resampled.area(self.mesh)
+        return topology.area(*self.mesh)
 
     @cached_property
     def straight_edges(self) -> Array:

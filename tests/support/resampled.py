@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import distance
+from . import distance, topology
 from .meshes import Mesh
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ def graded(medial: Any, mesh: Mesh, count: int, ratio: float = 10.0) -> tuple[An
     sites = distance.points_on_triangles(vertices[triangles], 5000, np.random.default_rng(0))
     along = (sites[:, 0] - sites[:, 0].min()) / np.ptp(sites[:, 0])
     wanted = ratio**along
-    wanted *= np.sqrt(area(mesh) / count * np.mean(2 / (np.sqrt(3) * wanted**2)))
+    wanted *= np.sqrt(topology.area(*mesh) / count * np.mean(2 / (np.sqrt(3) * wanted**2)))
     samples = medial.sample_surface(
         vertices, triangles, sizing=(sites, wanted), count=count, smooth=True
     )
@@ -45,11 +45,6 @@ def graded(medial: Any, mesh: Mesh, count: int, ratio: float = 10.0) -> tuple[An
 def spacing(area: float, count: int) -> float:
     """Distance of neighbours in a hexagonal lattice of so many points."""
     return float(np.sqrt(2 * area / (np.sqrt(3) * count)))
-
-
-def area(mesh: Mesh) -> float:
-    a, b, c = (mesh[0][mesh[1][:, i]] for i in range(3))
-    return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
 
 def diagonal(vertices: Array) -> float:

@@ -44,9 +44,7 @@ from .thin_sheets import ThinSheets, thin_sheets
 
 _SAME = 1e-7  # of the diagonal: vertices so close are one; derived: a float's rounding
 _PER_AREA = 2.0 / 3.0**0.5  # vertices for an area of one squared edge; derived: 2 / sqrt(3)
-_CURVED = (
-    1.5  # mean thicknesses: the least edge on curved sheets without a size; chosen: midsurface
-)
+_CURVED = 1.5  # mean thicknesses: the least edge of curved sheets with no size; chosen: midsurface
 _MOST_FACES = 2_000_000  # more than that are refused before they are made
 _MOST = 1.0 - FEW  # where less of the volume is sheet, a warning says so; derived: FEW
 _DOUBLED = 1.05  # where they have more than this of it, one does, too; chosen: midsurface

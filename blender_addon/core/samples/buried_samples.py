@@ -105,8 +105,7 @@ def _are_buried(
 ) -> tuple[Flags, Flags, Flags]:
     """(n,) mark the points at which the surface bounds nothing, with those in gaps narrower than `off`, and without.
 
-    The third marks are the first ones with the solid above them, at the distance `off`.
-
+    The third flags mark which of them have the solid above, at the distance `off` along the normal.
     Both sides are tested at the distance `off`, and closer where that is beyond a thin wall or gap. Walls and gaps no
     thicker than the rounding of their corners are none.
     """

@@ -53,11 +53,8 @@ struct BeyondDoubles : CGAL::Exact_predicates_inexact_constructions_kernel {
     const DoubleDouble value = determinant(rows);
     // The digits are finer by 2^-100 / 2^-53.
     if (std::abs(value.high) > 0x1p-47 * error * size(rows)) return CGAL::sign(value.high);
-    const auto last = [](const Point& p) {
-      return std::min({last_bit(p.x()), last_bit(p.y()), last_bit(p.z())});
-    };
-    int unit = last(from);
-    for (const Point& p : points) unit = std::min(unit, last(p));
+    int unit = last_bit(from.x(), from.y(), from.z());
+    for (const Point& p : points) unit = std::min(unit, last_bit(p.x(), p.y(), p.z()));
     const auto integer = [unit](double x) { return times_power_of_two(x, unit); };
     return CGAL::sign(determinant(differences(points, from, integer)).sign());
   }
@@ -80,8 +77,9 @@ struct BeyondDoubles : CGAL::Exact_predicates_inexact_constructions_kernel {
     constexpr double kLeast = 1e-220;  // derived: below it parts of products underflow
     std::array<double, 3> most{};
     for (const auto& row : rows) {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < 3; ++axis) {
         most[axis] = std::max(most[axis], std::abs(row[axis].high));
+      }
     }
     const double largest = std::max({most[0], most[1], most[2]});
     const double found = most[0] * most[1] * most[2] * (N == 4 ? largest * largest : 1);

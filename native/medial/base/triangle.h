@@ -18,6 +18,10 @@ inline bool has_three_corners(const Triangle& t) {
   return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
 
+inline bool has_corner(const Triangle& t, int32_t id) {
+  return std::find(t.begin(), t.end(), id) != t.end();
+}
+
 // Returns which corner of a triangle `id` is.
 inline int corner_of(const Triangle& t, int32_t id) { return t[0] == id ? 0 : t[1] == id ? 1 : 2; }
 

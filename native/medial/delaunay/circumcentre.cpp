@@ -26,9 +26,7 @@ ExactVec3 cross(const ExactVec3& a, const ExactVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-int common_last_bit(const Vec3& p) {
-  return std::min({last_bit(p.x), last_bit(p.y), last_bit(p.z)});
-}
+int common_last_bit(const Vec3& p) { return last_bit(p.x, p.y, p.z); }
 
 ExactVec3 exact(const Vec3& p, int last) {
   return {times_power_of_two(p.x, last), times_power_of_two(p.y, last),

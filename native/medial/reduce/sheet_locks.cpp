@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/triangle.h"
+
 namespace medial {
 
 SheetLocks::SheetLocks(const SphereComplex& complex, const SheetLabels& labels, size_t vertices)
@@ -18,8 +20,7 @@ bool SheetLocks::is_curve(const SphereComplex& complex, int32_t a, int32_t b) co
   int count = 0;
   int32_t part = -1;
   for (const int32_t t : complex.triangles_of(a)) {
-    const Triangle& corners = complex.triangle(t);
-    if (std::find(corners.begin(), corners.end(), b) == corners.end()) continue;
+    if (!has_corner(complex.triangle(t), b)) continue;
     if (count++ > 0 && part_[t] != part) return true;
     part = part_[t];
   }
@@ -45,7 +46,7 @@ bool SheetLocks::may_move(const SphereComplex& complex, int32_t a, int32_t b,
 bool SheetLocks::ends_sheet(const SphereComplex& complex, int32_t a, int32_t b) const {
   return std::ranges::any_of(complex.triangles_of(a), [&](int32_t t) {
     const auto& [p, q, r] = complex.triangle(t);
-    return (p == b || q == b || r == b) && is_curve(complex, p, q) && is_curve(complex, q, r) &&
+    return has_corner({p, q, r}, b) && is_curve(complex, p, q) && is_curve(complex, q, r) &&
            is_curve(complex, r, p);
   });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+#include "base/triangle.h"
 
 namespace medial {
 namespace {
@@ -20,10 +21,6 @@ void insert(std::vector<int32_t>& ids, int32_t id) {
 void erase(std::vector<int32_t>& ids, int32_t id) {
   const auto at = std::lower_bound(ids.begin(), ids.end(), id);
   if (at != ids.end() && *at == id) ids.erase(at);
-}
-
-bool has_corner(const Triangle& triangle, int32_t vertex) {
-  return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
 }
 
 // Returns the corners of a triangle other than the given one.
