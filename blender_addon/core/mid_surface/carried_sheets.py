@@ -92,7 +92,7 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     """(t,) the triangles of facets at rims that leave the plane of the facets around.
 
     A corner of theirs has gone a little way towards the edges of the solid, where the axis forks. Where all facets
-    around are at the rim, too, the plane is that of the whole sheet.
+    around are at the rim, too, the plane is that of the whole sheet; if the sheet is curved, nothing confirms theirs.
     """
     count = len(sheets.vertices)
     at_rim = np.zeros(count, bool)
@@ -109,7 +109,7 @@ def _tilted(sheets: ThinSheets, unclear: Flags, area: Floats) -> Flags:
     length = np.linalg.norm(around, axis=1)
     flat = (whole > 0.0) & (length >= (1.0 - _FLAT) * whole)
     tilted = dot(sheets.normals, around) < (1.0 - _FLAT) * length
-    return _in_facets(sheets, rim & flat & tilted)
+    return _in_facets(sheets, rim & (flat & tilted | lone & (length < (1.0 - _BENDS) * whole)))
 
 
 def are_curved(vectors: Floats, part: Ints, parts: int) -> Flags:
