@@ -6,123 +6,143 @@
 #include "exact/crease_reach.h"
 
 namespace medial {
-namespace {
 
 // Where a vertex of a rim goes.
-struct OnCrease {
+struct EvenCreases::OnCrease {
   PlaceOnCrease place;
   bool at_corner = false;  // whether facets lead into creases of two directions there
 };
 
-class CreaseHolder {
- public:
-  CreaseHolder(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
-               std::span<const double> hole, std::span<const double> radius)
-      : e_(even), samples_(samples), generators_(generators), hole_(hole), radius_(radius) {}
-
-  void hold(const Run& run) {
-    std::vector<OnCrease> found(e_.position.size());
-    parallel_for(
-        static_cast<int64_t>(found.size()), {run.threads, nullptr, nullptr},
-        [&](int64_t v) { found[v] = crease_of(static_cast<int32_t>(v)); }, 256);
-    find_corners(run);
-    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-      if (found[v].place.edge < 0) continue;
-      e_.position[v] = found[v].place.point;
-      e_.held[v] = kOnLine;
-      if (found[v].at_corner) take_corner(v, kCreaseBall * hole_[v]);
-    }
-    reach_corners(run);
-    end_lines();
+EvenCreases::EvenCreases(EvenMesh& even, const SamplesOnFaces& samples,
+                         std::span<const Edge> generators, std::span<const double> hole,
+                         std::span<const double> radius, const Run& run)
+    : e_(even),
+      samples_(samples),
+      generators_(generators),
+      hole_(hole),
+      radius_(radius),
+      run_{run.threads, nullptr, nullptr} {
+  const auto& points = samples_.faces().mesh().points;
+  for (size_t p = 0; p < points.size(); ++p) {
+    if (samples_.creases().is_corner(static_cast<int32_t>(p))) corners_.push_back(points[p]);
   }
+  if (!corners_.empty()) tree_ = PointTree::sorted(corners_, run_);
+}
 
- private:
-  // Where the rim of one sheet meets the middle of another, only the first one ends, and the crease
-  // into which the second one leads is farther on. So only triangles with an edge of a rim count.
-  OnCrease crease_of(int32_t v) const {
-    OnCrease best;
-    if (!(radius_[v] < kCreaseBall * hole_[v])) return best;
-    bool ends = false;
-    e_.mesh.for_triangles(v, [&](int32_t t) {
-      const auto found = samples_.crease_between(generators_[e_.source[t]], e_.position[v]);
-      if (!found ||
-          !(distance(found->point, e_.position[v]) < crease_reach(samples_, *found) * hole_[v]))
-        return;
-      for (const int32_t other : link_of(e_.mesh.triangle(t), v)) {
-        ends = ends || e_.mesh.uses(v, other) == 1;
-      }
-      best.at_corner =
-          best.at_corner || (best.place.edge >= 0 && !same_direction(samples_, best.place, *found));
-      if (best.place.edge < 0 ||
-          distance(found->point, e_.position[v]) < distance(best.place.point, e_.position[v])) {
-        best.place = *found;
-      }
-    });
-    return ends ? best : OnCrease{};
+void EvenCreases::hold() {
+  if (samples_.creases().empty()) return;
+  moves_.clear();
+  const std::vector<int32_t> ends = put_on_lines();
+  reach_corners();
+  mend();
+  for (const Move& move : moves_) {
+    if (e_.held[move.vertex] == kInCorner) e_.mesh.make_node(move.vertex);
+    e_.mesh.for_triangles(move.vertex, [&](int32_t t) { settle_normal(e_, t); });
   }
-
-  void find_corners(const Run& run) {
-    const auto& points = samples_.faces().mesh().points;
-    for (size_t p = 0; p < points.size(); ++p) {
-      if (samples_.creases().is_corner(static_cast<int32_t>(p))) corners_.push_back(points[p]);
-    }
-    if (!corners_.empty()) tree_ = PointTree::sorted(corners_, {run.threads, nullptr, nullptr});
-    reached_.assign(corners_.size(), 0);
+  for (const int32_t v : ends) {
+    if (e_.held[v] == kFree && e_.mesh.has_triangles(v)) join_line(v);
   }
+}
 
-  void take_corner(int32_t v, double within) {
-    if (corners_.empty()) return;
+void EvenCreases::put(int32_t v, const Vec3& place, uint8_t held) {
+  moves_.push_back({v, e_.position[v], e_.held[v]});
+  e_.position[v] = place;
+  e_.held[v] = held;
+}
+
+// Returns the vertices of rims that belong on creases.
+std::vector<int32_t> EvenCreases::put_on_lines() {
+  std::vector<OnCrease> found(e_.position.size());
+  parallel_for(
+      static_cast<int64_t>(found.size()), run_,
+      [&](int64_t v) { found[v] = crease_of(static_cast<int32_t>(v)); }, 256);
+  auto ends = rows_where(e_.mesh.vertices(), [&](int32_t v) { return found[v].place.edge >= 0; });
+  for (const int32_t v : ends) {
+    if (e_.held[v] == kFree) put(v, found[v].place.point, kOnLine);
+    if (!found[v].at_corner || corners_.empty()) continue;
     const Neighbour nearest = tree_.nearest(e_.position[v]);
-    if (!(nearest.distance < within)) return;
-    put(v, static_cast<size_t>(nearest.id));
+    if (nearest.distance < kCreaseBall * hole_at(v)) put(v, corners_[nearest.id], kInCorner);
   }
-  void put(int32_t v, size_t corner) {
-    e_.position[v] = corners_[corner];
-    e_.held[v] = kInCorner;
-    e_.mesh.make_node(v);
-    reached_[corner] = 1;
-  }
+  return ends;
+}
 
-  // Moves the nearest vertex on a crease to each corner that no vertex has reached.
-  void reach_corners(const Run& run) {
-    const auto held =
-        rows_where(e_.mesh.vertices(), [&](int32_t v) { return e_.held[v] == kOnLine; });
-    if (held.empty()) return;
-    const auto places = rows_of(e_.position, held);
-    const PointTree tree = PointTree::sorted(places, {run.threads, nullptr, nullptr});
-    for (size_t c = 0; c < corners_.size(); ++c) {
-      if (reached_[c]) continue;
-      const Neighbour nearest = tree.nearest(corners_[c]);
-      const int32_t v = held[nearest.id];
-      if (e_.held[v] == kOnLine && nearest.distance < kCornerReach * hole_[v]) put(v, c);
+// Moves the nearest vertex on a crease to each corner that no vertex has reached: a node, if one is
+// near.
+void EvenCreases::reach_corners() {
+  const auto on_crease = rows_where(e_.mesh.vertices(), [&](int32_t v) {
+    return (e_.held[v] == kOnLine || e_.held[v] == kInCorner) && e_.mesh.has_triangles(v);
+  });
+  std::vector<int32_t> nodes(on_crease);
+  std::erase_if(nodes, [&](int32_t v) { return e_.mesh.stratum(v) != Stratum::node; });
+  reach_corners_from(nodes);
+  reach_corners_from(on_crease);
+}
+
+void EvenCreases::reach_corners_from(std::span<const int32_t> vertices) {
+  if (vertices.empty()) return;
+  const auto places = rows_of(e_.position, vertices);
+  const PointTree tree = PointTree::sorted(places, run_);
+  for (const Vec3& corner : corners_) {
+    const Neighbour nearest = tree.nearest(corner);
+    const int32_t v = vertices[nearest.id];
+    if (e_.held[v] == kOnLine && nearest.distance < kCornerReach * hole_at(v)) {
+      put(v, corner, kInCorner);
     }
   }
+}
 
-  // A vertex whose neighbour along the rim is on no crease ends the line.
-  void end_lines() {
-    for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
-      if (!e_.held[v] || e_.mesh.stratum(v) != Stratum::curve) continue;
-      const auto [a, b] = e_.mesh.along_curve(v);
-      if (!e_.held[a] || !e_.held[b]) e_.mesh.make_node(v);
+// Mends what moves turned over: neighbours along a rim whose order on a crease is the other way
+// round become one, and of other vertices the last move is taken back.
+void EvenCreases::mend() {
+  for (bool found = true; found;) {
+    found = false;
+    for (auto move = moves_.rbegin(); move != moves_.rend(); ++move) {
+      const int32_t v = move->vertex;
+      if (e_.mesh.has_triangles(v) && keeps_sides(e_, v, e_.position[v])) continue;
+      found = true;
+      move->vertex = -1;
+      if (!e_.mesh.has_triangles(v) || join_line(v)) continue;
+      e_.position[v] = move->place;
+      e_.held[v] = move->held;
     }
+    std::erase_if(moves_, [](const Move& move) { return move.vertex < 0; });
   }
+}
 
-  EvenMesh& e_;
-  const SamplesOnFaces& samples_;
-  std::span<const Edge> generators_;
-  std::span<const double> hole_, radius_;
-  PointTree tree_;
-  std::vector<Vec3> corners_;
-  std::vector<uint8_t> reached_;  // per corner
-};
+// Where the rim of one sheet meets the middle of another, only the first one ends, and the crease
+// into which the second one leads is farther on. So only triangles with an edge of a rim count.
+EvenCreases::OnCrease EvenCreases::crease_of(int32_t v) const {
+  OnCrease best;
+  const double hole = hole_at(v);
+  const bool can_go_on = e_.held[v] == kFree || e_.held[v] == kOnLine;
+  if (!can_go_on || !(radius_[e_.origin[v]] < kCreaseBall * hole)) return best;
+  bool ends = false;
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    const auto found = samples_.crease_between(generators_[e_.source[t]], e_.position[v]);
+    if (!found || !(distance(found->point, e_.position[v]) < crease_reach(samples_, *found) * hole))
+      return;
+    for (const int32_t other : link_of(e_.mesh.triangle(t), v)) {
+      ends = ends || e_.mesh.uses(v, other) == 1;
+    }
+    best.at_corner =
+        best.at_corner || (best.place.edge >= 0 && !same_direction(samples_, best.place, *found));
+    if (best.place.edge < 0 ||
+        distance(found->point, e_.position[v]) < distance(best.place.point, e_.position[v])) {
+      best.place = *found;
+    }
+  });
+  return ends ? best : OnCrease{};
+}
 
-}  // namespace
-
-void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
-                     std::span<const Edge> generators, std::span<const double> hole,
-                     std::span<const double> radius, const Run& run) {
-  if (samples.creases().empty()) return;
-  CreaseHolder(even, samples, generators, hole, radius).hold(run);
+// Makes a vertex one with a neighbour along the rim that is on a crease. Returns whether it can be.
+bool EvenCreases::join_line(int32_t v) {
+  if (e_.mesh.stratum(v) != Stratum::curve) return false;
+  for (const int32_t next : e_.mesh.along_curve(v)) {
+    if (e_.held[next] == kFree || !can_collapse(e_, v, next)) continue;
+    collapse(e_, v, next, changed_);
+    return true;
+  }
+  return false;
 }
 
 void unite_held(EvenMesh& even) {

@@ -7,11 +7,44 @@
 
 namespace medial {
 
-// Moves vertices of rims onto creases, where the mesh holds them from then on, and to the corners
-// of these, which become nodes. `generators` and `hole` are per facet and per vertex.
-void hold_on_creases(EvenMesh& even, const SamplesOnFaces& samples,
-                     std::span<const Edge> generators, std::span<const double> hole,
-                     std::span<const double> radius, const Run& run);
+// The rims of an even mesh that end in sharp convex edges of the solid.
+class EvenCreases {
+ public:
+  // `generators` are per facet, and `hole` and `radius` per vertex at the start. The arguments must
+  // outlive this object.
+  EvenCreases(EvenMesh& even, const SamplesOnFaces& samples, std::span<const Edge> generators,
+              std::span<const double> hole, std::span<const double> radius, const Run& run);
+
+  // Moves vertices of rims onto creases, where the mesh holds them from then on, and to the corners
+  // of these, which become nodes. Those that would turn a triangle over stay for the next call.
+  void hold();
+
+ private:
+  struct OnCrease;
+  struct Move {
+    int32_t vertex;
+    Vec3 place;    // before
+    uint8_t held;  // before
+  };
+  double hole_at(int32_t v) const { return hole_[e_.origin[v]]; }
+  OnCrease crease_of(int32_t v) const;
+  void put(int32_t v, const Vec3& place, uint8_t held);
+  std::vector<int32_t> put_on_lines();
+  void reach_corners();
+  void reach_corners_from(std::span<const int32_t> vertices);
+  void mend();
+  bool join_line(int32_t v);
+
+  EvenMesh& e_;
+  const SamplesOnFaces& samples_;
+  std::span<const Edge> generators_;
+  std::span<const double> hole_, radius_;
+  Run run_;
+  std::vector<Vec3> corners_;
+  PointTree tree_;                // of the corners
+  std::vector<Move> moves_;       // since the last call began
+  std::vector<int32_t> changed_;  // triangles of a collapse
+};
 
 // Makes one vertex of those that are held at one place, where the mesh keeps its topology by it.
 void unite_held(EvenMesh& even);

@@ -37,7 +37,8 @@ class EvenSheets {
   EvenVertices make() {
     generators_ = rows_of(h_.complex.generators, level_.facet_of);
     EvenMesh even = start();
-    if (samples_) hold_on_creases(even, *samples_, generators_, hole_, radius_, run_);
+    std::optional<EvenCreases> creases;
+    if (samples_) creases.emplace(even, *samples_, generators_, hole_, radius_, run_).hold();
     std::vector<double> within(hole_);
     for (double& w : within) w *= kMerged;
     merge_close(even, within);
@@ -49,6 +50,7 @@ class EvenSheets {
       options.moves_curves = round < kMovingRounds;
       one_round(even, options, 0.4 * round / kRounds);
       if (round == 0) leave_out_what_is_gone(even);
+      if (creases) creases->hold();
     }
     if (!samples_) return write_even(even, {}, {}, h_, level_, run_);
     EvenPlaces places(even, *samples_, generators_, level_.wires, run_);

@@ -14,6 +14,8 @@ constexpr double kMostTurn = 0.342;  // chosen: axis
 // A triangle lower than this share of its longest edge is a needle, whose normal is rounding and
 // noise of the samples.
 constexpr double kNeedle = 0.02;  // chosen: axis
+// A triangle lower than this share has no side: its corners are on a line, up to rounding.
+constexpr double kFlat = 1e-12;  // derived: rounding
 // The cosine of the angle by which a sheet may turn at an edge: 120 degrees.
 constexpr double kFold = -0.5;  // chosen: axis
 
@@ -29,7 +31,7 @@ Plane plane_of(const Places& p) {
   const double area = length(across);
   const double longest = std::max(
       {squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[2] - p[1])});
-  return area == 0 ? Plane{} : Plane{(1 / area) * across, area / longest};
+  return area <= kFlat * longest ? Plane{} : Plane{(1 / area) * across, area / longest};
 }
 
 Places places_of(const EvenMesh& even, const Triangle& t) {

@@ -108,11 +108,11 @@ class Remesher {
   double target(int32_t a, int32_t b) const { return 0.5 * (e_.target[a] + e_.target[b]); }
 
   void split(int32_t a, int32_t b) {
-    const bool on_line = is_on_line(a) && is_on_line(b) && !mesh_.is_inside_sheet(a, b);
     const std::vector<int32_t> halves = mesh_.triangles_at(a, b);
     const Vec3 middle = 0.5 * (e_.position[a] + e_.position[b]);
+    const std::optional<Vec3> on_line = place_on_line(a, b, middle);
     mesh_.split(a, b, split_off_);
-    e_.position.push_back(on_line ? options_.onto_line(middle) : middle);
+    e_.position.push_back(on_line.value_or(middle));
     e_.target.push_back(target(a, b));
     e_.origin.push_back(e_.origin[a]);
     e_.held.push_back(on_line ? kOnLine : kFree);
@@ -120,6 +120,15 @@ class Remesher {
       e_.source.push_back(e_.source[t]);
       e_.normal.push_back(e_.normal[t]);
     }
+  }
+
+  // Returns the place of the middle of an edge along a line. Where a rim passes from one line to
+  // another there is none: an arc of a line rises by less than a quarter of its chord.
+  std::optional<Vec3> place_on_line(int32_t a, int32_t b, const Vec3& middle) const {
+    if (!is_on_line(a) || !is_on_line(b) || mesh_.is_inside_sheet(a, b)) return {};
+    const Vec3 place = options_.onto_line(middle);
+    if (4 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};
+    return place;
   }
 
   bool collapse(int32_t from, int32_t to) {
@@ -137,10 +146,17 @@ class Remesher {
     return all;
   }
 
-  // A held line keeps its bends, and what else is held stays.
+  // Returns whether a curve goes on along its line on both sides of a held vertex.
+  bool is_within_line(int32_t v) const {
+    if (e_.held[v] != kOnLine || mesh_.stratum(v) != Stratum::curve) return false;
+    return std::ranges::all_of(mesh_.along_curve(v),
+                               [&](int32_t w) { return e_.held[w] != kFree; });
+  }
+
+  // A held line keeps its ends and bends, and what else is held stays.
   bool keeps_line(int32_t from, int32_t to) const {
     if (e_.held[from] == kFree) return true;
-    if (e_.held[from] == kStill || mesh_.stratum(from) != Stratum::curve) return false;
+    if (!is_within_line(from)) return false;
     const Edge along = mesh_.along_curve(from);
     const int32_t other = along[0] == to ? along[1] : along[0];
     const Vec3 way = normalized(e_.position[to] - e_.position[other]);
@@ -174,7 +190,7 @@ class Remesher {
     for (int32_t v = 0; v < mesh_.vertices(); ++v) {
       const Stratum stratum = mesh_.stratum(v);
       const bool on_curve = stratum == Stratum::curve;
-      if (!mesh_.has_triangles(v) || e_.held[v] == kStill || (e_.held[v] && !on_curve)) continue;
+      if (!mesh_.has_triangles(v) || (e_.held[v] != kFree && !is_within_line(v))) continue;
       places_of(stratum).push_back({v, on_curve ? mesh_.along_curve(v) : Edge{}});
     }
   }
