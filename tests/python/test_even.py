@@ -12,6 +12,7 @@ from support import crisp_measures, crisp_solids, crossing_triangles, meshes, to
 from support.crisp_runs import Case
 from support.data import DATA
 from support.levels import betti_of_mesh
+from support.thick_meshes import pipe
 
 FLAT = ("box", "wedge", "blunt", "fan", "bracket", "stairs")
 PLANE = FLAT[:3]  # all of their sheets, without a kink of the mesh
@@ -120,6 +121,17 @@ def test_real_meshes_have_few_even_triangles_with_their_topology(name):
     assert len(crossing_triangles.crossing_pairs(axis.vertices, triangles)) == 0
     assert np.mean(axis.level.is_crisp) > 0.8
     assert axis.level.refused < 0.03 * len(axis.vertices)  # 0.032 if none looks again
+
+
+@pytest.mark.parametrize("of", [(12, 5.0, 5.0, 0.8, 20.0), (48, 2.0, 3.0, 0.2, 6.0)])
+def test_rims_at_the_ends_of_thin_pipes_keep_their_order(of):
+    """Vertices of a rim lay on the edges in another order than along the rim: 5 and 22 pairs of triangles crossed."""
+    axis = medial_axis.compute(*pipe(*of)).axis
+    triangles = axis.face_vertices.reshape(-1, 3)
+    assert len(crossing_triangles.crossing_pairs(axis.vertices, triangles)) == 0
+    assert axis.level.betti == (1, 1, 0) and euler(axis) == 0
+    heights = axis.vertices[axis.level.place == 4, 2]
+    assert np.minimum(abs(heights), abs(heights - of[-1])).max() < 1e-12 and len(heights) > 100
 
 
 @pytest.mark.parametrize("name", ["rocker-arm.off", "mannequin.off"])

@@ -21,6 +21,8 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 // The cosine between the outward normals of walls that are opposite each other, at most.
 inline constexpr double kOpposite = -0.5;  // derived: cos(120 degrees), a third of a turn
+// A smaller share of a length is none.
+inline constexpr double kRoundingShare = 1e-12;  // derived: rounding
 inline double squared_length(const Vec3& a) { return dot(a, a); }
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline double distance(const Vec3& a, const Vec3& b) { return length(a - b); }

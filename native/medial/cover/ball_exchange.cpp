@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kRounds = 4;             // later rounds gain next to nothing
 constexpr int64_t kCountsOfTask = 32;  // balls in one piece of work
-constexpr double kRounding = 1e-12;  // balls that nearly touch count as touching; derived: rounding
 
+// Balls that nearly touch count as touching.
 bool touch(const Ball& a, const Ball& b) {
-  return distance(a.centre, b.centre) <= (1 + kRounding) * (a.radius + b.radius);
+  return distance(a.centre, b.centre) <= (1 + kRoundingShare) * (a.radius + b.radius);
 }
 
 // This keeps, for each place, the distances to the nearest two of the chosen balls.

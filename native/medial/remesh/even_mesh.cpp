@@ -14,8 +14,6 @@ constexpr double kMostTurn = 0.342;  // chosen: axis
 // A triangle lower than this share of its longest edge is a needle, whose normal is rounding and
 // noise of the samples.
 constexpr double kNeedle = 0.02;  // chosen: axis
-// A triangle lower than this share has no side: its corners are on a line, up to rounding.
-constexpr double kFlat = 1e-12;  // derived: rounding
 // The cosine of the angle by which a sheet may turn at an edge: 120 degrees.
 constexpr double kFold = -0.5;  // chosen: axis
 
@@ -26,12 +24,13 @@ struct Plane {
   double height = 0;  // of the triangle, as a share of its longest edge
 };
 
+// A triangle whose corners are on a line has no side.
 Plane plane_of(const Places& p) {
   const Vec3 across = cross(p[1] - p[0], p[2] - p[0]);
   const double area = length(across);
   const double longest = std::max(
       {squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[2] - p[1])});
-  return area <= kFlat * longest ? Plane{} : Plane{(1 / area) * across, area / longest};
+  return area <= kRoundingShare * longest ? Plane{} : Plane{(1 / area) * across, area / longest};
 }
 
 Places places_of(const EvenMesh& even, const Triangle& t) {

@@ -15,7 +15,6 @@ constexpr double kNearBend = 4;      // spacings from a zigzag to its straight e
 constexpr double kLeastPatch = 100;  // squares of the spacing; chosen: axis, midsurface
 constexpr double kLeastCrease = 12;  // spacings along creases that hang together; chosen: unseen
 constexpr int kCreaseSteps = 16;
-constexpr double kCreasePrecision = 1e-12;  // as a share of the edge; derived: rounding
 
 double area_of(const TriangleMesh& mesh, int32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -168,7 +167,7 @@ PlaceOnCrease ConvexCreases::place_on(int32_t edge, const Vec3& from) const {
   Vec3 here = point(share);
   for (int i = 0; i < kCreaseSteps && squared > 0; ++i) {
     const double next = std::clamp(share + dot(from - here, chord) / squared, 0.0, 1.0);
-    if (std::abs(next - share) < kCreasePrecision) break;
+    if (std::abs(next - share) < kRoundingShare) break;
     share = next;
     here = point(share);
   }

@@ -13,8 +13,6 @@ namespace {
 constexpr int kMostWalked = 1 << 12;  // triangles of one walk
 constexpr int32_t kLeafOfTree = 2;
 constexpr size_t kFew = 8;  // triangles whose box holds their control points
-// A patch that bulges by less than this share of its size is flat: only rounding bent it.
-constexpr double kFlat = 1e-12;  // derived: rounding
 
 // How exactly the vertices are known does not depend on the frame.
 TriangleMesh mesh_in(const Frame& frame, const FacesInput& input, const Run& run) {
@@ -48,7 +46,8 @@ Faces::Faces(const FacesInput& input, const Frame& frame, const Run& run, Vertex
       const auto t = static_cast<int32_t>(id);
       const Patch patch = surface_->patch(t);
       const double bulge = patch.bulge();
-      if (!(bulge > kFlat * max_abs(patch.box().extent()))) return;
+      // Only rounding bent a patch that bulges by less.
+      if (!(bulge > kRoundingShare * max_abs(patch.box().extent()))) return;
       bulge_[t] = {rounded_up(bulge), rounded_up(patch.bulge(mesh_.normal[t]))};
     });
   }

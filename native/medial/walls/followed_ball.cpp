@@ -6,7 +6,6 @@ namespace {
 
 constexpr int kSteps = 12;           // of a centre
 constexpr int kHops = 6;             // from a triangle to the next one for one step
-constexpr double kEqual = 1e-12;     // of the radius, between distances; derived: rounding
 constexpr double kSmallStep = 1e-4;  // of barycentric coordinates; derived: its cube is the error
 
 // The place of a smooth wall that is nearest to a moving point.
@@ -112,7 +111,7 @@ std::optional<TouchingBall> followed_ball(const Faces& faces, std::span<int32_t>
     if (!one.follow(centre) || !other.follow(centre)) return {};
     const double radius = std::min(one.distance(), other.distance());
     const double unequal = std::abs(one.distance() - other.distance());
-    if (one.is_settled() && other.is_settled() && unequal <= kEqual * radius) {
+    if (one.is_settled() && other.is_settled() && unequal <= kRoundingShare * radius) {
       walls[0] = one.triangle();
       walls[1] = other.triangle();
       return TouchingBall{centre, radius, unequal, {one.away(), other.away()}};
