@@ -137,12 +137,12 @@ EvenCreases::OnCrease EvenCreases::crease_of(int32_t v) const {
 // Makes a vertex one with a neighbour along the rim that is on a crease. Returns whether it can be.
 bool EvenCreases::join_line(int32_t v) {
   if (e_.mesh.stratum(v) != Stratum::curve) return false;
-  for (const int32_t next : e_.mesh.along_curve(v)) {
-    if (e_.held[next] == kFree || !can_collapse(e_, v, next)) continue;
-    collapse(e_, v, next, changed_);
-    return true;
-  }
-  return false;
+  const Edge along = e_.mesh.along_curve(v);
+  const auto* const next = std::ranges::find_if(
+      along, [&](int32_t w) { return e_.held[w] != kFree && can_collapse(e_, v, w); });
+  if (next == along.end()) return false;
+  collapse(e_, v, *next, changed_);
+  return true;
 }
 
 void unite_held(EvenMesh& even) {
