@@ -233,6 +233,19 @@ TEST(SheetComplex, FlipsAndSplitsKeepBettiNumbersAndStrata) {
   EXPECT_GT(flips, 2000);
 }
 
+TEST(SheetComplex, TrianglesThatFillNotchesKeepBettiNumbersAndStrata) {
+  int64_t added = 0;
+  expect_kept(500, [&](SheetComplex& mesh, const auto&, Numbers& random) {
+    for (const auto& [a, b] : mesh.edges()) {
+      const int32_t c = random.below(mesh.vertices());
+      if (c == b || !mesh.can_add(a, b, c)) continue;
+      mesh.add({a, b, c});
+      ++added;
+    }
+  });
+  EXPECT_GT(added, 2000);
+}
+
 // A compact mesh has the triangles of the other one, at each vertex in the same order, and what can
 // be done with that can be done with it.
 TEST(SheetComplex, ACompactMeshIsWhatWasLeft) {

@@ -3,7 +3,9 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
+#include "base/sort_unique.h"
 #include "exact/crease_reach.h"
+#include "remesh/remesh.h"
 
 namespace medial {
 
@@ -143,6 +145,50 @@ bool EvenCreases::join_line(int32_t v) {
   if (next == along.end()) return false;
   collapse(e_, v, *next, changed_);
   return true;
+}
+
+void EvenCreases::fill_notches() {
+  if (samples_.creases().empty()) return;
+  for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
+    if (e_.held[v] != kFree || !e_.mesh.has_triangles(v)) continue;
+    for (const int32_t a : ends_beside(v)) fill_notch(v, a);
+  }
+}
+
+// Returns the neighbours of a vertex along rims that are on creases.
+std::vector<int32_t> EvenCreases::ends_beside(int32_t v) const {
+  std::vector<int32_t> found;
+  e_.mesh.for_corners(v, [&](int32_t other) {
+    if (e_.held[other] != kFree && e_.mesh.uses(v, other) == 1) found.push_back(other);
+  });
+  return found;
+}
+
+// An arc of a crease rises by less than a quarter of its chord.
+bool EvenCreases::are_beside_on_line(int32_t a, int32_t b) const {
+  const double apart = distance(e_.position[a], e_.position[b]);
+  if (a == b || apart > kLong * std::max(e_.target[a], e_.target[b])) return false;
+  return samples_.creases()
+      .nearer(0.5 * (e_.position[a] + e_.position[b]), 0.25 * apart)
+      .has_value();
+}
+
+// The rim comes back from the same vertex, or from one beside it.
+bool EvenCreases::fill_notch(int32_t v, int32_t a) {
+  for (const int32_t b : ends_beside(v)) {
+    if (are_beside_on_line(a, b) && add_triangle(e_, v, a, b)) return true;
+  }
+  std::vector<int32_t> beside;
+  e_.mesh.for_corners(v, [&](int32_t other) { beside.push_back(other); });
+  sort_unique(beside);
+  for (const int32_t other : beside) {
+    if (e_.held[other] != kFree) continue;
+    for (const int32_t b : ends_beside(other)) {
+      if (!are_beside_on_line(a, b) || !add_triangle(e_, v, a, other)) continue;
+      return add_triangle(e_, other, a, b);
+    }
+  }
+  return false;
 }
 
 void unite_held(EvenMesh& even) {

@@ -18,6 +18,8 @@ class EvenCreases {
   // Moves vertices of rims onto creases, where the mesh holds them from then on, and to the corners
   // of these, which become nodes. Those that would turn a triangle over stay for the next call.
   void hold();
+  // Fills the notches of rims that leave a crease and come back to it beside.
+  void fill_notches();
 
  private:
   struct OnCrease;
@@ -34,6 +36,9 @@ class EvenCreases {
   void reach_corners_from(std::span<const int32_t> vertices);
   void mend();
   bool join_line(int32_t v);
+  std::vector<int32_t> ends_beside(int32_t v) const;
+  bool are_beside_on_line(int32_t a, int32_t b) const;
+  bool fill_notch(int32_t v, int32_t a);
 
   EvenMesh& e_;
   const SamplesOnFaces& samples_;

@@ -51,6 +51,7 @@ class EvenSheets {
       one_round(even, options, 0.4 * round / kRounds);
       if (round == 0) leave_out_what_is_gone(even);
       if (creases) creases->hold();
+      if (creases && round > 0) creases->fill_notches();
     }
     if (!samples_) return write_even(even, {}, {}, h_, level_, run_);
     EvenPlaces places(even, *samples_, generators_, level_.wires, run_);

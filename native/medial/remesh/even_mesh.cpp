@@ -156,6 +156,20 @@ void move(EvenMesh& even, int32_t v, const Vec3& place) {
   even.mesh.for_triangles(v, [&](int32_t t) { settle_normal(even, t); });
 }
 
+bool add_triangle(EvenMesh& even, int32_t corner, int32_t a, int32_t b) {
+  if (!even.mesh.can_add(corner, a, b)) return false;
+  const int32_t beside = even.mesh.triangles_at(corner, a)[0];
+  const Triangle& other = even.mesh.triangle(beside);
+  const bool runs_back = other[(corner_of(other, corner) + 1) % 3] == a;
+  const Triangle triangle = runs_back ? Triangle{a, corner, b} : Triangle{corner, a, b};
+  const Plane plane = plane_of(places_of(even, triangle));
+  if (plane.height < kNeedle || !(dot(plane.normal, even.normal[beside]) > kMostTurn)) return false;
+  even.mesh.add(triangle);
+  even.source.push_back(even.source[beside]);
+  even.normal.push_back(plane.normal);
+  return true;
+}
+
 std::vector<int32_t> compact(EvenMesh& even) {
   auto [vertices, triangles, number] = even.mesh.compact();
   even.position = rows_of(even.position, vertices);

@@ -40,6 +40,9 @@ bool can_collapse(const EvenMesh& even, int32_t from, int32_t to);
 // Collapses a vertex into another one; `moved` becomes the triangles that it had.
 void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved);
 void move(EvenMesh& even, int32_t v, const Vec3& place);
+// Adds a triangle on the edges from a corner to two others, the first of which is on a rim, if the
+// complex allows it and the sheet that ends there does not fold. Returns whether it did.
+bool add_triangle(EvenMesh& even, int32_t corner, int32_t a, int32_t b);
 // Does what SheetComplex::compact does; returns the new number of each former vertex, or -1.
 std::vector<int32_t> compact(EvenMesh& even);
 // Takes over the normal of a triangle whose corners have moved.

@@ -268,17 +268,28 @@ int32_t SheetComplex::split(int32_t a, int32_t b, std::vector<int32_t>& split_of
   stratum_.push_back(at_edge.size() == 2 ? Stratum::sheet : Stratum::curve);
   split_off.clear();
   for (const int32_t t : at_edge) {
-    const auto half = static_cast<int32_t>(triangles_.size());
     Triangle other = triangles_[t];
     other[corner_of(other, a)] = middle;
     replace_corner(t, b, middle);
-    triangles_.push_back(other);
-    next_.resize(next_.size() + 3);
-    before_.resize(before_.size() + 3);
-    for (int i = 0; i < 3; ++i) link(3 * half + i);
-    split_off.push_back(half);
+    split_off.push_back(append(other));
   }
   return middle;
+}
+
+int32_t SheetComplex::append(const Triangle& triangle) {
+  const int32_t t = triangles();
+  triangles_.push_back(triangle);
+  next_.resize(next_.size() + 3);
+  before_.resize(before_.size() + 3);
+  for (int i = 0; i < 3; ++i) link(3 * t + i);
+  return t;
+}
+
+void SheetComplex::add(const Triangle& triangle) {
+  append(triangle);
+  for (const int32_t v : triangle) {
+    if (!stays_[v]) stratum_[v] = find_stratum(v);
+  }
 }
 
 Kept SheetComplex::compact() {

@@ -105,6 +105,13 @@ class SheetComplex {
   // `a` keeps its number; split_off[i] is the other half of triangles_at(a, b)[i].
   int32_t split(int32_t a, int32_t b, std::vector<int32_t>& split_off);
 
+  // Returns whether a triangle can be added on the edges from one corner to the two others, between
+  // which there is no edge: an elementary expansion, which keeps the homotopy type.
+  bool can_add(int32_t corner, int32_t a, int32_t b) const {
+    return uses(corner, a) > 0 && uses(corner, b) > 0 && uses(a, b) == 0 && !is_wired(a, b);
+  }
+  void add(const Triangle& triangle);
+
   // Numbers what is left anew, in the same order, without what is gone.
   Kept compact();
 
@@ -120,6 +127,7 @@ class SheetComplex {
   // Adds or removes a corner, 3 * triangle + place, to or from the list of its vertex.
   void link(int32_t corner);
   void unlink(int32_t corner);
+  int32_t append(const Triangle& triangle);
   void replace_corner(int32_t t, int32_t from, int32_t to);
 
   std::vector<Triangle> triangles_;
