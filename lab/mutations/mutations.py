@@ -846,6 +846,33 @@ MUTATIONS = (
         "edges flip away from the better diagonal",
     ),
     Mutation(
+        "remesh/remesh.cpp",
+        "    if (16 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};\n",
+        "",
+        "a rim that passes from one crease to another is on one of them halfway",
+        python=("test_even.py",),
+    ),
+    Mutation(
+        "remesh/sheet_complex.h",
+        "uses(corner, b) > 0 && uses(a, b) == 0",
+        "uses(corner, b) > 0",
+        "a triangle is added between ends that have an edge",
+    ),
+    Mutation(
+        "exact/even_creases.cpp",
+        "  mend();\n",
+        "",
+        "rims move onto creases whatever that turns over",
+        python=("test_even.py",),
+    ),
+    Mutation(
+        "exact/even_creases.cpp",
+        "  std::erase_if(nodes, [&](int32_t v) { return e_.mesh.stratum(v) != Stratum::node; });\n",
+        "",
+        "the nearest vertex goes to a corner, where a node is beside it",
+        python=("test_crisp.py",),
+    ),
+    Mutation(
         "remesh/even_mesh.cpp",
         "return turn > kMostTurn;",
         "return turn > -2;",

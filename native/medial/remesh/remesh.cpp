@@ -122,12 +122,12 @@ class Remesher {
     }
   }
 
-  // Returns the place of the middle of an edge along a line. Where a rim passes from one line to
-  // another there is none: an arc of a line rises by less than a quarter of its chord.
+  // Returns the place of the middle of an edge along a line. There is none where a rim passes from
+  // one line to another: an arc of 28 degrees rises by a sixteenth of its chord.
   std::optional<Vec3> place_on_line(int32_t a, int32_t b, const Vec3& middle) const {
     if (!is_on_line(a) || !is_on_line(b) || mesh_.is_inside_sheet(a, b)) return {};
     const Vec3 place = options_.onto_line(middle);
-    if (4 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};
+    if (16 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};
     return place;
   }
 
