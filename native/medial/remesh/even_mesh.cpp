@@ -14,6 +14,8 @@ constexpr double kMostTurn = 0.342;  // chosen: axis
 // A triangle lower than this share of its longest edge is a needle, whose normal is rounding and
 // noise of the samples.
 constexpr double kNeedle = 0.02;  // chosen: axis
+// A triangle lower than this share is flat: rounding of 6e-8 in edges of 1/300 of the whole.
+constexpr double kFlat = 2e-5;  // derived: rounding
 // The cosine of the angle by which a sheet may turn at an edge: 120 degrees.
 constexpr double kFold = -0.5;  // chosen: axis
 
@@ -24,13 +26,13 @@ struct Plane {
   double height = 0;  // of the triangle, as a share of its longest edge
 };
 
-// A triangle whose corners are on a line has no side.
+// A triangle whose corners are on a line, up to the rounding of float32, has no side.
 Plane plane_of(const Places& p) {
   const Vec3 across = cross(p[1] - p[0], p[2] - p[0]);
   const double area = length(across);
   const double longest = std::max(
       {squared_length(p[1] - p[0]), squared_length(p[2] - p[0]), squared_length(p[2] - p[1])});
-  return area <= kRoundingShare * longest ? Plane{} : Plane{(1 / area) * across, area / longest};
+  return area <= kFlat * longest ? Plane{} : Plane{(1 / area) * across, area / longest};
 }
 
 Places places_of(const EvenMesh& even, const Triangle& t) {
