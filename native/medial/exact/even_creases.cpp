@@ -102,7 +102,6 @@ void EvenCreases::mend() {
       const int32_t v = move->vertex;
       if (e_.mesh.has_triangles(v) && keeps_sides(e_, v, e_.position[v])) continue;
       found = true;
-      if (e_.held[v] == kInCorner && join_corner(v)) continue;
       move->vertex = -1;
       if (!e_.mesh.has_triangles(v) || join_line(v)) continue;
       e_.position[v] = move->place;
@@ -190,16 +189,6 @@ bool EvenCreases::fill_notch(int32_t v, int32_t a) {
     }
   }
   return false;
-}
-
-// Makes a neighbour along the rim, which lies before the corner of a vertex, one with that.
-bool EvenCreases::join_corner(int32_t v) {
-  std::vector<int32_t> beside = ends_beside(v);
-  const auto next = std::ranges::find_if(
-      beside, [&](int32_t w) { return e_.held[w] == kOnLine && can_collapse(e_, w, v); });
-  if (next == beside.end()) return false;
-  collapse(e_, *next, v, changed_);
-  return true;
 }
 
 void unite_held(EvenMesh& even) {

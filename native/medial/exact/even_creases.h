@@ -36,7 +36,6 @@ class EvenCreases {
   void reach_corners_from(std::span<const int32_t> vertices);
   void mend();
   bool join_line(int32_t v);
-  bool join_corner(int32_t v);
   std::vector<int32_t> ends_beside(int32_t v) const;
   bool are_beside_on_line(int32_t a, int32_t b) const;
   bool fill_notch(int32_t v, int32_t a);
