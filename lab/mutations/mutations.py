@@ -847,10 +847,17 @@ MUTATIONS = (
     ),
     Mutation(
         "remesh/remesh.cpp",
-        "    if (16 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};\n",
-        "",
+        "kRise * distance(e_.position[a], e_.position[b])",
+        "HUGE_VAL",
         "a rim that passes from one crease to another is on one of them halfway",
         python=("test_even.py",),
+    ),
+    Mutation(
+        "remesh/remesh.cpp",
+        "share > kLong || misses_line(a, b) ?",
+        "share > kLong ?",
+        "edges along creases miss them by any chord",
+        python=("test_crisp.py",),
     ),
     Mutation(
         "remesh/sheet_complex.h",

@@ -249,17 +249,17 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("fan", 20_000): {"cov": 5e-3, "area": 1.5e-4},
     ("profile", 4_000): {"err": 1e-3},
     ("stairs", 20_000): {"err": 2e-4},
-    ("plate", 4_000): {"cov": 1.3e-3, "cov_99": 6e-4, "gap": 0.03},
-    ("plate", 20_000): {"cov_99": 2e-4, "gap": 0.035},
-    ("cone", 4_000): {"cov": 3.5e-3, "cov_99": 1e-3, "gap": 0.04},
+    ("plate", 4_000): {"cov": 1.3e-3, "cov_99": 6e-4},
+    ("plate", 20_000): {"cov_99": 2e-4, "gap": 0.022},
+    ("cone", 4_000): {"cov": 3.5e-3, "cov_99": 1e-3},
     ("cone", 20_000): {"err": 1.5e-3, "cov": 3e-3, "cov_99": 8e-4},
-    ("cylinder", 4_000): {"err": 1.5e-2, "cov": 1.2e-2, "cov_99": 2e-3, "gap": 0.06},
-    ("cylinder", 20_000): {"err": 4e-3, "cov": 6e-3, "cov_99": 1.5e-3, "gap": 0.03},
+    ("cylinder", 4_000): {"err": 1.5e-2, "cov": 1.2e-2, "cov_99": 2e-3},
+    ("cylinder", 20_000): {"err": 4e-3, "cov": 6e-3, "cov_99": 1.5e-3, "gap": 0.025},
     ("stadium", 4_000): {
-        **{"err": 6e-3, "err_99": 3e-4, "cov": 7e-3, "cov_99": 3e-3, "gap": 0.06, "rim": 0.01}
+        **{"err": 6e-3, "err_99": 3e-4, "cov": 7e-3, "cov_99": 3e-3, "gap": 0.026, "rim": 0.01}
     },
     ("stadium", 20_000): {  # float32 leaves a crossing at a corner
-        **{"err": 3e-3, "cov": 8e-3, "cov_99": 4e-3, "gap": 0.055, "crossings": 1},
+        **{"err": 3e-3, "cov": 8e-3, "cov_99": 4e-3, "gap": 0.041, "crossings": 1},
     },
     ("oblate", 4_000): {
         "err": 5e-3, "err_99": 3.3e-3, "cov": 3.2e-3, "cov_99": 1.3e-3, "ball": 2e-4,

@@ -5,7 +5,6 @@
 #include "base/rows.h"
 #include "base/sort_unique.h"
 #include "exact/crease_reach.h"
-#include "remesh/remesh.h"
 
 namespace medial {
 
@@ -34,16 +33,15 @@ EvenCreases::EvenCreases(EvenMesh& even, const SamplesOnFaces& samples,
 void EvenCreases::hold() {
   if (samples_.creases().empty()) return;
   moves_.clear();
-  const std::vector<int32_t> ends = put_on_lines();
+  std::vector<int32_t> ends = put_on_lines();
   reach_corners();
   mend();
   for (const Move& move : moves_) {
     if (e_.held[move.vertex] == kInCorner) e_.mesh.make_node(move.vertex);
     e_.mesh.for_triangles(move.vertex, [&](int32_t t) { settle_normal(e_, t); });
   }
-  for (const int32_t v : ends) {
-    if (e_.held[v] == kFree && e_.mesh.has_triangles(v)) join_line(v);
-  }
+  std::erase_if(ends, [&](int32_t v) { return e_.held[v] != kFree || held_beside(v) < 0; });
+  for (const int32_t v : ends) join_line(v);
 }
 
 void EvenCreases::put(int32_t v, const Vec3& place, uint8_t held) {
@@ -94,7 +92,8 @@ void EvenCreases::reach_corners_from(std::span<const int32_t> vertices) {
 }
 
 // Mends what moves turned over: neighbours along a rim whose order on a crease is the other way
-// round become one, and of other vertices the last move is taken back.
+// round become one, also where one of them is a node, and of other vertices the last move is taken
+// back.
 void EvenCreases::mend() {
   for (bool found = true; found;) {
     found = false;
@@ -102,6 +101,7 @@ void EvenCreases::mend() {
       const int32_t v = move->vertex;
       if (e_.mesh.has_triangles(v) && keeps_sides(e_, v, e_.position[v])) continue;
       found = true;
+      if (e_.mesh.has_triangles(v) && take_in_passed(v)) continue;
       move->vertex = -1;
       if (!e_.mesh.has_triangles(v) || join_line(v)) continue;
       e_.position[v] = move->place;
@@ -136,14 +136,38 @@ EvenCreases::OnCrease EvenCreases::crease_of(int32_t v) const {
   return ends ? best : OnCrease{};
 }
 
+// Returns the nearer neighbour along the rim that is on a crease and into which a vertex can be
+// collapsed; or -1.
+int32_t EvenCreases::held_beside(int32_t v) const {
+  int32_t nearest = -1;
+  if (!e_.mesh.has_triangles(v) || e_.mesh.stratum(v) != Stratum::curve) return nearest;
+  const auto away = [&](int32_t w) { return distance(e_.position[w], e_.position[v]); };
+  for (const int32_t w : e_.mesh.along_curve(v)) {
+    const bool is_nearer = nearest < 0 || away(w) < away(nearest);
+    if (e_.held[w] != kFree && is_nearer && can_collapse(e_, v, w)) nearest = w;
+  }
+  return nearest;
+}
+
 // Makes a vertex one with a neighbour along the rim that is on a crease. Returns whether it can be.
 bool EvenCreases::join_line(int32_t v) {
-  if (e_.mesh.stratum(v) != Stratum::curve) return false;
-  const Edge along = e_.mesh.along_curve(v);
-  const auto* const next = std::ranges::find_if(
-      along, [&](int32_t w) { return e_.held[w] != kFree && can_collapse(e_, v, w); });
-  if (next == along.end()) return false;
-  collapse(e_, v, *next, changed_);
+  const int32_t next = held_beside(v);
+  if (next >= 0) collapse(e_, v, next, changed_);
+  return next >= 0;
+}
+
+// Takes the neighbours along rims that a vertex has passed on its way to a corner into it, if it is
+// then sound. Returns whether it is.
+bool EvenCreases::take_in_passed(int32_t v) {
+  if (e_.held[v] != kInCorner) return false;
+  std::vector<int32_t> passed = ends_beside(v);
+  std::erase_if(passed, [&](int32_t w) {
+    return !is_turned_over(e_, e_.mesh.triangles_at(v, w)[0]) || !can_collapse(e_, w, v);
+  });
+  if (passed.empty() || !keeps_sides(e_, v, e_.position[v], passed)) return false;
+  for (const int32_t w : passed) {
+    if (e_.mesh.can_collapse(w, v)) collapse(e_, w, v, changed_);
+  }
   return true;
 }
 
@@ -151,7 +175,9 @@ void EvenCreases::fill_notches() {
   if (samples_.creases().empty()) return;
   for (int32_t v = 0; v < e_.mesh.vertices(); ++v) {
     if (e_.held[v] != kFree || !e_.mesh.has_triangles(v)) continue;
-    for (const int32_t a : ends_beside(v)) fill_notch(v, a);
+    for (const int32_t a : ends_beside(v)) {
+      if (e_.mesh.uses(v, a) == 1) fill_notch(v, a);
+    }
   }
 }
 
@@ -164,31 +190,35 @@ std::vector<int32_t> EvenCreases::ends_beside(int32_t v) const {
   return found;
 }
 
-// An arc of a crease rises by less than a quarter of its chord.
 bool EvenCreases::are_beside_on_line(int32_t a, int32_t b) const {
   const double apart = distance(e_.position[a], e_.position[b]);
   if (a == b || apart > kLong * std::max(e_.target[a], e_.target[b])) return false;
   return samples_.creases()
-      .nearer(0.5 * (e_.position[a] + e_.position[b]), 0.25 * apart)
+      .nearer(0.5 * (e_.position[a] + e_.position[b]), kRise * apart)
       .has_value();
 }
 
-// The rim comes back from the same vertex, or from one beside it.
-bool EvenCreases::fill_notch(int32_t v, int32_t a) {
+// The rim comes back from the same vertex, or from the next one, which is then a case of the first
+// kind.
+void EvenCreases::fill_notch(int32_t v, int32_t a) {
   for (const int32_t b : ends_beside(v)) {
-    if (are_beside_on_line(a, b) && add_triangle(e_, v, a, b)) return true;
+    if (are_beside_on_line(a, b) && add_triangle(e_, v, a, b)) return;
   }
-  std::vector<int32_t> beside;
-  e_.mesh.for_corners(v, [&](int32_t other) { beside.push_back(other); });
-  sort_unique(beside);
-  for (const int32_t other : beside) {
-    if (e_.held[other] != kFree) continue;
+  for (const int32_t other : e_.mesh.curve_neighbours(v)) {
+    if (e_.held[other] != kFree || e_.mesh.uses(v, other) != 1) continue;
     for (const int32_t b : ends_beside(other)) {
       if (!are_beside_on_line(a, b) || !add_triangle(e_, v, a, other)) continue;
-      return add_triangle(e_, other, a, b);
+      fill_notch(other, a);
+      return;
     }
   }
-  return false;
+}
+
+OntoLine onto_creases(const SamplesOnFaces* samples) {
+  return [samples](const Vec3& from, double than) -> std::optional<Vec3> {
+    const auto nearest = samples->creases().nearer(from, than);
+    return nearest ? std::optional(nearest->point) : std::nullopt;
+  };
 }
 
 void unite_held(EvenMesh& even) {

@@ -2,7 +2,7 @@
 // Rims of sheets that lead into sharp convex edges of the solid end on them, with radius 0.
 #pragma once
 
-#include "remesh/even_mesh.h"
+#include "remesh/remesh.h"
 #include "walls/samples_on_faces.h"
 
 namespace medial {
@@ -35,10 +35,12 @@ class EvenCreases {
   void reach_corners();
   void reach_corners_from(std::span<const int32_t> vertices);
   void mend();
+  int32_t held_beside(int32_t v) const;
   bool join_line(int32_t v);
+  bool take_in_passed(int32_t v);
   std::vector<int32_t> ends_beside(int32_t v) const;
   bool are_beside_on_line(int32_t a, int32_t b) const;
-  bool fill_notch(int32_t v, int32_t a);
+  void fill_notch(int32_t v, int32_t a);
 
   EvenMesh& e_;
   const SamplesOnFaces& samples_;
@@ -51,6 +53,8 @@ class EvenCreases {
   std::vector<int32_t> changed_;  // triangles of a collapse
 };
 
+// `samples` must outlive what is returned.
+OntoLine onto_creases(const SamplesOnFaces* samples);
 // Makes one vertex of those that are held at one place, where the mesh keeps its topology by it.
 void unite_held(EvenMesh& even);
 

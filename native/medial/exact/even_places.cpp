@@ -11,11 +11,11 @@ namespace {
 constexpr int64_t kFew = 64;         // vertices that a thread takes at a time
 constexpr double kSamePlace = 1e-3;  // target lengths between places that are one; chosen: unseen
 constexpr double kMostSlide = 0.7;   // of the target length that a rim moves at once; chosen: axis
-constexpr double kAtEnd = 0.05;  // target lengths: a rim that moves less has ended; chosen: unseen
+// target lengths: a rim that moves less has ended, and steps along it that differ less agree
+constexpr double kSmallStep = 0.05;     // chosen: axis
 constexpr double kRimOpenness = 0.004;  // of a rim, whose feet are 7 degrees apart; chosen: axis
 constexpr double kPlate = 0.9;  // the openness of a plate with nearly parallel sides; chosen: axis
 constexpr double kRimSlope = 0.2;  // of the steps along a rim; chosen: axis
-constexpr double kRough = 0.05;    // mean deviation of steps, in target lengths; chosen: axis
 constexpr int kMeans = 6, kMeansOfRoughness = 16;
 constexpr int kAlongRounds = 12;     // in which a step learns of those along the rim
 constexpr int kHalvingsToLast = 10;  // of the way to the last ball that touches two places
@@ -171,6 +171,23 @@ void EvenPlaces::finish() {
     if (keeps_sides(e_, v, mean)) move(e_, v, mean);
   }
   place(refused);
+  bring_inside();
+}
+
+// A refused vertex outside the faces goes as far inside as it was outside.
+void EvenPlaces::bring_inside() {
+  for (const int32_t v :
+       vertices_where([&](int32_t v) { return placing_[v] == Placing::refused; })) {
+    const auto foot = samples_.faces().nearer(e_.position[v], HUGE_VAL);
+    if (!foot || !is_beyond(*foot, e_.position[v])) continue;
+    const Vec3 mirrored = 2.0 * foot->point - e_.position[v];
+    if (keeps_sides(e_, v, mirrored)) move(e_, v, mirrored);
+  }
+}
+
+// Returns whether a place is on the outer side of the wall of its foot.
+bool EvenPlaces::is_beyond(const Foot& foot, const Vec3& place) const {
+  return dot(place - foot.point, samples_.faces().normal(foot.triangle, foot.at)) > 0;
 }
 
 // Returns the mean of the neighbours of a vertex inside a sheet, each once for its two triangles.
@@ -299,8 +316,7 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
 bool EvenPlaces::is_beyond_walls(int32_t v, const Vec3& place) const {
   Walls walls = found_[v].walls;
   return std::ranges::any_of(walls.all(), [&](int32_t triangle) {
-    const Foot foot = samples_.faces().descend(triangle, place);
-    return dot(place - foot.point, samples_.faces().normal(foot.triangle, foot.at)) > 0;
+    return is_beyond(samples_.faces().descend(triangle, place), place);
   });
 }
 
@@ -341,7 +357,7 @@ void EvenPlaces::even_out(std::span<const OnRim> rims, std::span<const SmoothRim
   for (const auto& [v, along] : rims) rough[v] = std::abs(raw[v] - step[v]) / e_.target[v];
   take_means(rims, kMeansOfRoughness, rough);
   for (const auto& [v, along] : rims) {
-    if (!(rough[v] < kRough) && !way[v].at_wall) {
+    if (!(rough[v] < kSmallStep) && !way[v].at_wall) {
       step[v] = 0;
     } else if (way[v].at_wall) {
       step[v] = raw[v];
@@ -384,7 +400,7 @@ bool EvenPlaces::slide() {
     const Vec3 place = e_.position[v] + now * outward_at(v);
     if (now != 0 && keeps_sides(e_, v, place)) move(e_, v, place);
   }
-  return most > kAtEnd;
+  return most > kSmallStep;
 }
 
 // Returns the direction in which a sheet ends at a vertex of its rim: away from the third corners

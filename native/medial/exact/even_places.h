@@ -62,6 +62,8 @@ class EvenPlaces {
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   bool is_beyond_walls(int32_t v, const Vec3& place) const;
+  bool is_beyond(const Foot& foot, const Vec3& place) const;
+  void bring_inside();
   SmoothRim before_third_wall(int32_t v) const;
   bool has_parallel_walls(int32_t v) const;
   Touch ball_between(int32_t v, const Vec3& start) const;

@@ -2,6 +2,7 @@
 #include "levels/even_rims.h"
 
 #include "base/rows.h"
+#include "exact/even_creases.h"
 #include "exact/even_places.h"
 #include "levels/even_level.h"
 #include "remesh/remesh.h"
@@ -77,9 +78,7 @@ void smooth_new_rims(Level& level, const Hierarchy::Parts& h, const Alive& alive
   EvenMesh even = mesh_of(level, h.even->vertices);
   hold_others(even, std::move(near));
   const SamplesOnFaces* faces = h.on_faces.get();
-  const RemeshOptions options{true, kChord * h.complex.diagonal, [&](const Vec3& place) {
-                                return faces->creases().nearer(place, HUGE_VAL)->point;
-                              }};
+  const RemeshOptions options{true, kChordOfLine * h.complex.diagonal, onto_creases(faces)};
   for (int round = 0; round < kRimRounds; ++round) remesh(even, options, run);
   if (!faces) return void(write_even(even, {}, {}, h, level, run));
   const auto generators = rows_of(h.complex.generators, level.facet_of);

@@ -18,10 +18,11 @@ constexpr double kEdge = 2.8;       // the edge wanted: 1.7 distances of samples
 constexpr double kLeastEdge = 1.3;  // in narrow sheets: nothing to gain below; chosen: axis
 // where a sheet is curved: half the distance of samples, below which they know no curvature
 constexpr double kLeastOfCurved = 0.8;  // derived: 0.5 / 0.6
-constexpr double kMerged = 0.3;   // that Voronoi vertices of one place are apart; chosen: axis
-constexpr double kOfArea = 2.5;   // the same in sides of a facet, for rough scans; chosen: axis
-constexpr double kOfWidth = 0.5;  // the same in half-widths of the sheet; chosen: axis
-constexpr double kSlope = 0.5;    // by which lengths grow along the sheet at most; chosen: axis
+constexpr double kMerged = 0.3;  // that Voronoi vertices of one place are apart; chosen: axis
+constexpr double kOfArea = 2.5;  // the same in sides of a facet, for rough scans; chosen: axis
+// the same in half-widths of the sheet, so that lengths grow by it along narrow sheets, and nowhere
+// by more
+constexpr double kOfWidth = 0.5;  // chosen: axis
 constexpr int kMovingRounds = 2;  // in which curves lose the zigzag of the samples
 constexpr int kRounds = 6, kRoundsAfterPlaces = 2, kSlides = 6;
 
@@ -42,10 +43,9 @@ class EvenSheets {
     std::vector<double> within(hole_);
     for (double& w : within) w *= kMerged;
     merge_close(even, within);
+    leave_out_what_is_gone(even);
     choose_targets(even);
-    RemeshOptions options{true, kChord * h_.complex.diagonal, [&](const Vec3& place) {
-                            return samples_->creases().nearer(place, HUGE_VAL)->point;
-                          }};
+    RemeshOptions options{true, kChordOfLine * h_.complex.diagonal, onto_creases(samples_)};
     for (int round = 0; round < kRounds; ++round) {
       options.moves_curves = round < kMovingRounds;
       one_round(even, options, 0.4 * round / kRounds);
@@ -67,7 +67,8 @@ class EvenSheets {
     unite_held(even);
   }
 
-  // The first round leaves a tenth of the mesh; all later ones are quicker without the rest.
+  // Merging leaves a third of the mesh, and the first round a tenth of that; what follows is
+  // quicker without the rest.
   void leave_out_what_is_gone(EvenMesh& even) {
     const std::vector<int32_t> number = compact(even);
     for (auto& [a, b] : level_.wires) a = number[a], b = number[b];
@@ -139,12 +140,12 @@ class EvenSheets {
   void choose_targets(EvenMesh& even) {
     const auto width = half_widths(even.mesh, even.position);
     parallel_for(even.mesh.vertices(), run_, [&](int64_t v) {
-      const double least =
-          std::max(kLeastEdge * hole_[v], 0.4 * kOfArea * std::sqrt(facet_area_[v]));
-      const double most = std::max(kEdge * hole_[v], kOfArea * std::sqrt(facet_area_[v]));
+      const double hole = hole_[even.origin[v]], side = std::sqrt(facet_area_[even.origin[v]]);
+      const double least = std::max(kLeastEdge * hole, 0.4 * kOfArea * side);
+      const double most = std::max(kEdge * hole, kOfArea * side);
       even.target[v] = std::clamp(kOfWidth * width[v], least, most);
     });
-    spread_least(even.mesh, even.position, kSlope, even.target);
+    spread_least(even.mesh, even.position, kOfWidth, even.target);
   }
 
   void settle(EvenMesh& even, EvenPlaces& places, RemeshOptions& options) {
@@ -174,7 +175,7 @@ class EvenSheets {
       const double wanted = std::sqrt(8 * chord / curvature[v]) / kLong;
       even.target[v] = std::min(even.target[v], std::max(least, wanted));
     }
-    spread_least(even.mesh, even.position, kSlope, even.target);
+    spread_least(even.mesh, even.position, kOfWidth, even.target);
   }
 
   Level& level_;

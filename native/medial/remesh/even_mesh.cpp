@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/rows.h"
+#include "base/short_list.h"
 
 namespace medial {
 namespace {
@@ -39,12 +40,16 @@ Places places_of(const EvenMesh& even, const Triangle& t) {
   return {even.position[t[0]], even.position[t[1]], even.position[t[2]]};
 }
 
+bool contains(std::span<const int32_t> all, int32_t one) {
+  return std::ranges::find(all, one) != all.end();
+}
+
 // The triangles at a vertex, as they would be if it moved.
 class MovedStar {
  public:
-  // Triangles at the edge to `without` vanish, and keep no side.
-  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, int32_t without = -1) : e_(even) {
-    star_.reserve(12);  // most stars have no more
+  // Triangles at the edges to `without` vanish, and keep no side.
+  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, std::span<const int32_t> without)
+      : e_(even) {
     e_.mesh.for_triangles(v, [&](int32_t t) {
       if (!keeps_sides_) return;
       const Triangle& corners = e_.mesh.triangle(t);
@@ -53,8 +58,10 @@ class MovedStar {
       Places places = places_of(e_, corners);
       places[at] = place;
       const Plane plane = plane_of(places);
-      keeps_sides_ = next == without || last == without || keeps_side(t, plane);
-      star_.push_back({t, next, last, plane.height < kNeedle ? e_.normal[t] : plane.normal});
+      const bool vanishes = contains(without, next) || contains(without, last);
+      keeps_sides_ = vanishes || keeps_side(t, plane);
+      const bool keeps_normal = vanishes || plane.height < kNeedle;
+      star_.push_back({t, next, last, keeps_normal ? e_.normal[t] : plane.normal});
     });
   }
 
@@ -121,23 +128,29 @@ class MovedStar {
   }
 
   const EvenMesh& e_;
-  std::vector<Moved> star_;
+  ShortList<Moved> star_;
   bool keeps_sides_ = true;
 };
 
 }  // namespace
 
-bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place) {
-  return MovedStar(even, v, place).is_sound();
+bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place,
+                 std::span<const int32_t> without) {
+  return MovedStar(even, v, place, without).is_sound();
+}
+
+bool is_turned_over(const EvenMesh& even, int32_t triangle) {
+  const Plane plane = plane_of(places_of(even, even.mesh.triangle(triangle)));
+  return dot(plane.normal, even.normal[triangle]) < 0;
 }
 
 bool turns_none(const EvenMesh& even, int32_t from, int32_t to) {
-  return MovedStar(even, from, even.position[to], to).keeps_sides();
+  return MovedStar(even, from, even.position[to], {&to, 1}).keeps_sides();
 }
 
 bool can_collapse(const EvenMesh& even, int32_t from, int32_t to) {
   return even.mesh.can_collapse(from, to) &&
-         MovedStar(even, from, even.position[to], to).is_sound();
+         MovedStar(even, from, even.position[to], {&to, 1}).is_sound();
 }
 
 void collapse(EvenMesh& even, int32_t from, int32_t to, std::vector<int32_t>& moved) {

@@ -29,8 +29,12 @@ struct EvenMesh {
 };
 
 // Returns whether all triangles at a vertex would keep their side if it moved to a place, and no
-// sheet would turn by more than 120 degrees at an edge of them at which it does not yet.
-bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place);
+// sheet would turn by more than 120 degrees at an edge of them at which it does not yet. Triangles
+// at the edges to `without` do not count.
+bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place,
+                 std::span<const int32_t> without = {});
+// Returns whether a triangle whose corners have moved since is turned over.
+bool is_turned_over(const EvenMesh& even, int32_t triangle);
 // Returns whether all triangles at a vertex that has an edge to another one would keep their side
 // if it were collapsed into that.
 bool turns_none(const EvenMesh& even, int32_t from, int32_t to);

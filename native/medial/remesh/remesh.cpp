@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "base/parallel.h"
-#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -22,16 +21,11 @@ using Ranked = std::tuple<double, int32_t, int32_t>;  // an edge, by what comes 
 template <typename RankOf>
 std::vector<Ranked> ranked_edges(const SheetComplex& mesh, const RankOf& rank_of) {
   std::vector<Ranked> ranked;
-  for (int32_t t = 0; t < mesh.triangles(); ++t) {
-    if (mesh.is_gone(t)) continue;
-    const Triangle& corners = mesh.triangle(t);
-    for (int i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax(corners[i], corners[(i + 1) % 3]);
-      const double rank = rank_of(a, b);
-      if (rank < HUGE_VAL) ranked.emplace_back(rank, a, b);
-    }
+  for (const auto& [a, b] : mesh.edges()) {
+    const double rank = rank_of(a, b);
+    if (rank < HUGE_VAL) ranked.emplace_back(rank, a, b);
   }
-  sort_unique(ranked);
+  std::sort(ranked.begin(), ranked.end());
   return ranked;
 }
 
@@ -56,7 +50,7 @@ class Remesher {
   void split() {
     const auto rank_of = [&](int32_t a, int32_t b) {
       const double share = share_of_target(a, b);
-      return share > kLong ? -share : HUGE_VAL;
+      return share > kLong || misses_line(a, b) ? -share : HUGE_VAL;
     };
     for (const auto& [rank, a, b] : ranked_edges(mesh_, rank_of)) {
       throw_if_cancelled(run_.progress);
@@ -123,12 +117,16 @@ class Remesher {
   }
 
   // Returns the place of the middle of an edge along a line. There is none where a rim passes from
-  // one line to another: an arc of 28 degrees rises by a sixteenth of its chord.
+  // one line to another.
   std::optional<Vec3> place_on_line(int32_t a, int32_t b, const Vec3& middle) const {
     if (!is_on_line(a) || !is_on_line(b) || mesh_.is_inside_sheet(a, b)) return {};
-    const Vec3 place = options_.onto_line(middle);
-    if (16 * distance(place, middle) > distance(e_.position[a], e_.position[b])) return {};
-    return place;
+    return options_.onto_line(middle, kRise * distance(e_.position[a], e_.position[b]));
+  }
+
+  // Returns whether an edge along a line misses it by more than it may.
+  bool misses_line(int32_t a, int32_t b) const {
+    const Vec3 middle = 0.5 * (e_.position[a] + e_.position[b]);
+    return place_on_line(a, b, middle) && !options_.onto_line(middle, options_.chord);
   }
 
   bool collapse(int32_t from, int32_t to) {
@@ -159,9 +157,8 @@ class Remesher {
     if (!is_within_line(from)) return false;
     const Edge along = mesh_.along_curve(from);
     const int32_t other = along[0] == to ? along[1] : along[0];
-    const Vec3 way = normalized(e_.position[to] - e_.position[other]);
-    const Vec3 off = e_.position[from] - e_.position[other];
-    return length(off - dot(off, way) * way) <= options_.chord;
+    const Vec3 middle = 0.5 * (e_.position[to] + e_.position[other]);
+    return options_.onto_line(middle, options_.chord).has_value();
   }
 
   // Returns whether the angles across an edge sum up to more than half a turn.
@@ -203,7 +200,7 @@ class Remesher {
     const Vec3 &a = e_.position[place.along[0]], &b = e_.position[place.along[1]];
     const Vec3& here = e_.position[v];
     const Vec3 way = 0.5 * (a + b) - here;
-    if (e_.held[v]) return share > 0 ? options_.onto_line(here + share * way) : here;
+    if (e_.held[v]) return share > 0 ? *options_.onto_line(here + share * way, HUGE_VAL) : here;
     if (options_.moves_curves) return here + share * way;
     const Vec3 tangent = normalized(b - a);
     return here + share * dot(way, tangent) * tangent;

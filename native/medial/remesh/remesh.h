@@ -14,13 +14,19 @@ namespace medial {
 // collapsed, so that neither makes work for the other (Botsch and Kobbelt 2004).
 inline constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;  // derived: neither makes work
 
+// An edge runs along a line if the line misses its middle by no more than this share of it: an arc
+// of 28 degrees rises by that.
+inline constexpr double kRise = 1.0 / 16;  // chosen: axis
+
+// Returns the nearest place of some lines if it is nearer than a distance.
+using OntoLine = std::function<std::optional<Vec3>(const Vec3& from, double than)>;
+
 struct RemeshOptions {
   // Curves move to the middle of their neighbours, too, which takes the zigzag of samples off them;
   // else vertices of curves move along them only.
   bool moves_curves = false;
-  double chord = 0;  // the distance that the chord of a held line may miss a vertex by
-  // Returns the place of the line that is nearest to where a held vertex would go.
-  std::function<Vec3(const Vec3&)> onto_line;
+  double chord = 0;    // the distance that an edge along a line may miss it by
+  OntoLine onto_line;  // the lines on which vertices are held
 };
 
 // Merges vertices inside sheets with vertices that are nearer than `within`, (v), nearest first:

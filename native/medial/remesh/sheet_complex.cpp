@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "base/rows.h"
+#include "base/short_list.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 
@@ -76,7 +78,8 @@ int32_t SheetComplex::across(int32_t t, int32_t a, int32_t b) const {
 }
 
 std::vector<int32_t> SheetComplex::curve_neighbours(int32_t v) const {
-  std::vector<int32_t> all, found;
+  ShortList<int32_t> all;
+  std::vector<int32_t> found;
   for_corners(v, [&](int32_t other) { all.push_back(other); });
   std::sort(all.begin(), all.end());
   for (size_t i = 0, end = 0; i < all.size(); i = end) {
@@ -105,9 +108,11 @@ Stratum SheetComplex::find_stratum(int32_t v) const {
 
 namespace {
 
+using Link = ShortList<Edge>;
+
 // Goes along the edges of a link from `at` to `to`, or until no edge is left. Returns how many
 // edges it went along, and takes them out of the list.
-int go_along(std::vector<Edge>& edges, int32_t at, int32_t to) {
+int go_along(Link& edges, int32_t at, int32_t to) {
   int count = 0;
   do {
     const auto next = std::find_if(edges.begin(), edges.end(),
@@ -124,15 +129,15 @@ int go_along(std::vector<Edge>& edges, int32_t at, int32_t to) {
 }  // namespace
 
 bool SheetComplex::link_is_circle(int32_t v) const {
-  std::vector<Edge> edges;
+  Link edges;
   for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
-  const int32_t start = edges.front()[0];
+  const int32_t start = link_of(triangles_[first_[v] / 3], v)[0];
   go_along(edges, start, start);
   return edges.empty();
 }
 
 bool SheetComplex::link_is_arcs(int32_t v, int32_t from, int32_t to) const {
-  std::vector<Edge> edges;
+  Link edges;
   for_triangles(v, [&](int32_t t) { edges.push_back(link_of(triangles_[t], v)); });
   const auto is_at = [](int32_t vertex) {
     return [vertex](const Edge& e) { return e[0] == vertex || e[1] == vertex; };
@@ -185,8 +190,7 @@ bool SheetComplex::has_triangle(int32_t a, int32_t b, int32_t c) const {
 // whole sheet, smaller than the edges shall be, and the two curves become one, but for the last
 // triangle between three rims.
 bool SheetComplex::loses_sheet(int32_t from, int32_t to) const {
-  const std::vector<int32_t> at_edge = triangles_at(from, to);
-  return std::ranges::any_of(at_edge, [&](int32_t t) {
+  return std::ranges::any_of(triangles_at(from, to), [&](int32_t t) {
     const int32_t third = third_corner(t, from, to);
     return uses(from, third) == 1 && uses(to, third) == 1;
   });
@@ -231,8 +235,7 @@ bool SheetComplex::links_have_in_common(int32_t from, int32_t to, int at_edge) c
 
 void SheetComplex::collapse(int32_t from, int32_t to) {
   const bool is_inside = stratum_[from] == Stratum::sheet;
-  const std::vector<int32_t> at_edge = triangles_at(from, to);
-  for (const int32_t t : at_edge) {
+  for (const int32_t t : triangles_at(from, to)) {
     for (int i = 0; i < 3; ++i) unlink(3 * t + i);
     triangles_[t] = {-1, -1, -1};
   }
@@ -240,6 +243,7 @@ void SheetComplex::collapse(int32_t from, int32_t to) {
   if (is_inside) return;
   std::vector<int32_t> beside{to};
   for_corners(to, [&](int32_t other) { beside.push_back(other); });
+  sort_unique(beside);
   for (const int32_t v : beside) {
     if (!stays_[v]) stratum_[v] = find_stratum(v);
   }
