@@ -12,7 +12,6 @@ from ..arrays import Flags, Floats, Ints
 from ..errors import DegenerateInputError, InvalidInputError, Severe
 from ..machine import native
 from ..settings import Side, SidesFrom
-from ..shape.nearness import same_place
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of
 from ..small_matrices import dot
@@ -81,7 +80,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         return Sides(wanted, "as chosen", is_chosen=True)
     bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
     # Normals mean nothing where more of the edges lie between faces of opposite orientation.
-    turned = bounded or _turned(shape.points, shape.triangles) <= FEW
+    turned = bounded or shape.turned_share <= FEW
     is_open = f"the mesh is open at {gaps:,} edges"
     by_winding = f"the winding number of the faces, for {is_open}"
     reasons = {
@@ -126,13 +125,6 @@ def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
         f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
         f"Solidify modifier){others if of_axis else ''}"
     )
-
-
-def _turned(points: Floats, triangles: Ints) -> float:
-    """Return the share of edges through which another triangle runs in the same direction."""
-    ends = same_place(points)[triangles]
-    edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
-    return 1.0 - len(np.unique(edges)) / len(edges)
 
 
 def _automatic(bounded: bool, has_normals: bool) -> SidesFrom:
