@@ -14,11 +14,11 @@ from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.bent_sheets import bent_sheets
-from ..shape.check_faces import check_not_flat
+from ..shape.check_faces import check_not_flat, open_sheet_error
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import OF_SHEETS, TURNED, Shape
 from .sample_spacing import first_pass
-from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
+from .sides import are_sheets, resolve_sides_of_samples
 
 MOST_ROWS = 1000  # of the table of parts
 
@@ -271,11 +271,10 @@ def _is_sheet(shape: Shape, settings: Settings) -> bool:
     if settings.sides is not SidesFrom.AUTOMATIC:
         return False
     read = outward_shape(shape)
-    gaps = _open_edges(read, settings)
-    if not gaps:
+    if not read.open_edges:
         return False
     spacing = first_pass(read, settings).spacing
-    sides = resolve_sides_of_samples(settings.sides, read, gaps, spacing)
+    sides = resolve_sides_of_samples(settings.sides, read, spacing)
     return sides.source is not SidesFrom.SURFACE
 
 

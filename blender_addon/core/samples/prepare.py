@@ -42,6 +42,13 @@ class Input:
         """The amount of a first pass over the faces, which there have to be."""
         return first_pass(self.shape, self.settings)
 
+    @property
+    def by_open_faces(self) -> bool:
+        """Whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
+        normals, wanted = self.shape.normals, self.settings.sides
+        is_given = normals is not None and bool(normals.any())
+        return wanted is SidesFrom.AUTOMATIC and self.shape.open_edges > 0 and not is_given
+
 
 def prepare(shape: Shape, settings: Settings, progress: Any) -> Input:
     """Read a shape: wrap it, turn its faces outward and leave out sheets, or smooth points without faces.

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
-from ..errors import DegenerateInputError, InvalidInputError, Severe
+from ..errors import InvalidInputError, Severe
 from ..machine import native
-from ..settings import Side, SidesFrom
+from ..settings import SidesFrom
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of
 from ..small_matrices import dot
@@ -67,17 +67,18 @@ def resolve_sides(wanted: SidesFrom, triangles: Ints, gaps: int, normals: Floats
     return Sides(wanted, "as chosen", is_chosen=True)
 
 
-def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing: float) -> Sides:
+def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, spacing: float) -> Sides:
     """Do the same as `resolve_sides` for samples of faces, which have the normals of the faces.
 
     The solid of an open mesh is the region where its winding number is above one half, provided that most of the faces
     outside of this region's interior bound it. The faces of a sheet do not; there the votes of the normals determine
-    what lies behind it, which `check_not_a_sheet` takes only for an axis of both sides.
+    what lies behind it, which `decide` takes only for an axis of both sides.
 
-    The faces are open at `gaps` edges; the spacing is the distance of neighbouring samples.
+    The spacing is the distance of neighbouring samples.
     """
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
+    gaps = shape.open_edges
     bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
     # Normals mean nothing where more of the edges lie between faces of opposite orientation.
     turned = bounded or shape.turned_share <= FEW
@@ -107,24 +108,6 @@ def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flag
         np.bincount(part[rows], areas * counts, count) for counts in (~inside, ~buried, everywhere)
     )
     return (every > 0.0) & np.where(outer > 0.0, bounding < _BOUNDING * outer, is_open)
-
-
-def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
-    """Raise DegenerateInputError where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
-
-    The sides are as `resolve_sides_of_samples` returns them; the faces are open at `gaps` edges.
-    """
-    if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
-        raise open_sheet_error(gaps)
-
-
-def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
-    """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
-    others = ", or choose Side Both, or Inside Decided By Normals for what lies behind it"
-    return DegenerateInputError(
-        f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        f"Solidify modifier){others if of_axis else ''}"
-    )
 
 
 def _automatic(bounded: bool, has_normals: bool) -> SidesFrom:

@@ -58,14 +58,6 @@ def _check_corners(shape: Shape) -> None:
         )
 
 
-def none_left(shape: Shape) -> DegenerateInputError:
-    """Return the error for faces each of which counts for nothing, so that none can decide what is inside."""
-    return DegenerateInputError(
-        f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
-        "no three corners; give them thickness (a Solidify modifier), or choose Inside From Tight Cocone"
-    )
-
-
 def reading_warnings(shape: Shape) -> Iterator[str]:
     """Say what was read in another way than it was given, a sentence each."""
     counts, faces = shape.reading_counts, len(shape.triangles)
