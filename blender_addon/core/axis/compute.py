@@ -15,9 +15,9 @@ from ..samples.analysed import Sides
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.density import Density
-from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..settings import Form, Settings, SidesFrom
+from ..shape.mesh_counts import MeshCounts, mesh_counts
 from ..shape.shape import Shape
 from .axis_warnings import axis_warnings
 from .extract import extract
