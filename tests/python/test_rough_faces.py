@@ -29,9 +29,8 @@ def sphere(noise, subdivisions=5):
 
 def apart(points, triangles):
     """The faces, each with vertices of its own."""
-    return points[triangles].reshape(-1, 3), np.arange(triangles.size, dtype=np.int32).reshape(
-        -1, 3
-    )
+    rows = np.arange(triangles.size, dtype=np.int32)
+    return points[triangles].reshape(-1, 3), rows.reshape(-1, 3)
 
 
 def cubes(cells):
