@@ -13,7 +13,7 @@ from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.bent_sheets import bent_sheets
-from ..shape.check_faces import check_not_flat, open_sheet_error
+from ..shape.check_faces import check_not_a_sheet, check_not_flat, open_sheet_error
 from ..shape.outward_faces import outward_shape
 from ..shape.shape import OF_SHEETS, Shape
 from .sample_spacing import first_pass
@@ -37,13 +37,16 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     DegenerateInputError
         One side is wanted, and all faces are those of bent sheets.
     """
-    if settings.sampling is SamplingMode.VERTICES:
+    by_open_faces = settings.sides is SidesFrom.AUTOMATIC and shape.open_edges > 0
+    if settings.sampling is SamplingMode.VERTICES or not by_open_faces:
         return shape
-    shape = _without_bent_sheets(shape, settings)
-    if not _open_edges(shape, settings):
-        return shape
+    of_sheets, are_all = _are_of_bent_sheets(shape)
+    if not are_all:
+        shape = _leave_out(shape, of_sheets)
+    elif settings.side is not Side.BOTH:
+        check_not_a_sheet(shape, settings.side)
     part, is_open = shape.connected
-    if len(is_open) < 2:
+    if not shape.open_edges or len(is_open) < 2:
         return shape
     spacing = first_pass(shape, settings).spacing
     of_sheets = (part >= 0) & are_sheets(shape, part, is_open, spacing)[part]
@@ -53,22 +56,10 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
 def check_no_sheet(shape: Shape) -> None:
     """Raise DegenerateInputError where faces, which look outward, are those of open sheets and of nothing else."""
     plain = Settings()
-    if gaps := _open_edges(shape, plain):
+    if shape.open_edges:
         check_not_flat(shape)
         if _are_of_bent_sheets(shape)[1] or _is_sheet(without_sheets(shape, plain), plain):
-            raise open_sheet_error(gaps, of_axis=False)
-
-
-def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
-    if not (gaps := _open_edges(shape, settings)):
-        return shape
-    of_sheets, are_all = _are_of_bent_sheets(shape)
-    if not are_all:
-        return _leave_out(shape, of_sheets)
-    if settings.side is Side.BOTH:
-        return shape
-    check_not_flat(shape)
-    raise open_sheet_error(gaps)
+            raise open_sheet_error(shape.open_edges, of_axis=False)
 
 
 def _are_of_bent_sheets(shape: Shape) -> tuple[Flags, bool]:
@@ -158,11 +149,6 @@ def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
     read = outward_shape(shape)
     whole = np.zeros(len(read.triangles), np.int32)
     return _is_sheet(shape, settings) or bool(bent_sheets(read, whole, 1).any())
-
-
-def _open_edges(shape: Shape, settings: Settings) -> int:
-    """Count the edges at which faces are open, if open faces may decide what is inside; else 0."""
-    return shape.open_edges if settings.sides is SidesFrom.AUTOMATIC else 0
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:

@@ -67,5 +67,5 @@ def prepare(shape: Shape, settings: Settings, progress: Any) -> Input:
         smooth, scan = prepared(shape, settings, progress)
         return Input(shape, shape, smooth, settings, scan=scan)
     given = outward_shape(shape)
-    read = without_sheets(given, settings) if given.open_edges else given
+    read = without_sheets(given, settings)
     return Input(given, read, read, settings)
