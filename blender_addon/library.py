@@ -104,7 +104,7 @@ def compute(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    shape, origin = _shape(points, triangles, normals)
     return axis.compute_axis(shape, wanted, _progress(progress)).moved(origin)
 
 
@@ -134,7 +134,7 @@ def compute_each_part(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
-    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    shape, origin = _shape(points, triangles, normals)
     each = each_part.compute_each_part(shape, wanted, _progress(progress))
     return replace(each, computations=tuple(one.moved(origin) for one in each.computations))
 
@@ -213,7 +213,7 @@ def cover_by_balls(
         refine=_value(refine, "refine", BALL_OPTIONS["refine"]),
     )
     chosen = Settings(**_checked(settings, list(OPTIONS)))
-    shape, origin = in_own_frame(_shape(points, triangles, normals))
+    shape, origin = _shape(points, triangles, normals)
     cover = ball_cover.cover_by_balls(shape, chosen, wanted, _progress(progress))
     return replace(cover, balls=cover.balls.moved(origin))
 
@@ -370,18 +370,19 @@ def _check_kind(given: Any, name: str, *kinds: type) -> None:
         )
 
 
-def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | None) -> Shape:
+def _shape(
+    points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | None
+) -> tuple[Shape, Floats]:
+    """Return what a caller gave as a shape in its own frame, and where the origin of this frame is."""
     found = _numbers(points, "points")
     faces = _corners(np.empty((0, 3), np.int32) if triangles is None else triangles)
-    if normals is None:
-        return Shape(found, faces)
-    directions = _numbers(normals, "normals")
-    if len(directions) != len(found):
+    directions = None if normals is None else _numbers(normals, "normals")
+    if directions is not None and len(directions) != len(found):
         raise InvalidInputError(
             f"Expected a normal for each of {len(found):,} points, found {len(directions):,}; "
             "give a zero normal where there is none"
         )
-    return Shape(found, faces, directions)
+    return in_own_frame(Shape(found, faces, directions))
 
 
 def _numbers(rows: ArrayLike, name: str) -> Floats:

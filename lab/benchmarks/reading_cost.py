@@ -21,8 +21,9 @@ medial = _module.load()
 from medial_axis.core.axis.compute import compute_axis  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
 from medial_axis.core.machine.cache import CACHE  # noqa: E402
-from medial_axis.core.samples.mesh_parts import mesh_counts, without_sheets  # noqa: E402
+from medial_axis.core.samples.mesh_parts import without_sheets  # noqa: E402
 from medial_axis.core.settings import Settings  # noqa: E402
+from medial_axis.core.shape.mesh_counts import mesh_counts  # noqa: E402
 from medial_axis.core.shape.outward_faces import outward_shape  # noqa: E402
 from medial_axis.core.shape.shape import Shape  # noqa: E402
 from support import meshes, messy  # noqa: E402

@@ -7,7 +7,7 @@ from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.machine import native
 from medial_axis.core.settings import SamplingMode, Settings
-from medial_axis.core.shape.outward_faces import outward_shape, reading_counts
+from medial_axis.core.shape.outward_faces import outward_shape
 from medial_axis.core.shape.shape import Shape
 from support import meshes, messy
 from support.same_axis import same_axis
@@ -209,7 +209,7 @@ def test_a_shape_says_how_it_was_read():
     shape = Shape(*inward(cube()))
     read = outward_shape(shape)
     none = dict.fromkeys(("repeated", "without_corners", "of_sheets"), 0)
-    assert reading_counts(read) == {"turned": 12, **none}
+    assert read.reading_counts == {"turned": 12, **none}
     assert shape.reading is None and outward_shape(read) is read
 
 

@@ -10,7 +10,7 @@ from ..samples.density import percent
 from ..settings import Settings, Side, SidesFrom
 from ..shape.shape import Shape
 from .medial_axis import MedialAxis
-from .solid_warnings import normals_look_inward, solid_warnings
+from .solid_warnings import solid_warnings
 
 # A larger share of vertices at which no ball fits between the faces causes a warning. Scans with rough faces have up to
 # 0.25.
@@ -24,7 +24,7 @@ def axis_warnings(
     if axis.level is not None and not axis.level.loops_left_out:
         betti = axis.level.betti
     yield from solid_warnings(shape, settings.side, settings.sides, chosen, betti)
-    if axis.is_empty and not normals_look_inward(settings.sides, chosen):
+    if axis.is_empty and not chosen.normals_look_inward:
         yield _why_empty(shape, settings, chosen, axis)
     yield from _refused(axis)
 

@@ -15,10 +15,9 @@ from ..samples.analysed import Sides
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.density import Density
-from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.rough_faces import SMOOTHING, smooth_faces
 from ..settings import Form, Settings, SidesFrom
-from ..shape.outward_faces import reading_counts
+from ..shape.mesh_counts import MeshCounts, mesh_counts
 from ..shape.shape import Shape
 from .axis_warnings import axis_warnings
 from .extract import extract
@@ -154,7 +153,7 @@ def compute_axis(
         warnings=(*([rough] if rough else []), *axis_warnings(shape, settings, chosen, axis)),
         topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=begun.seconds,
-        turned=reading_counts(shape)["turned"],
+        turned=shape.reading_counts["turned"],
         mesh=mesh_counts(begun.given),
     )
 

@@ -4,14 +4,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
+import numpy as np
+
+from ..arrays import Floats, Ints
 from ..errors import Severe
+from ..machine import native
 from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import differs_warning, sampling_warnings
-from ..samples.sides import cocone_warnings, look_inward, pole_warnings
 from ..settings import SamplingMode, Side, SidesFrom
 from ..shape.shape import Shape
 
+# A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
+_UNEVEN = 0.1  # measured: 0.06 on clean scans
+# A triangle, or an edge, that is this many times as wide as the median one spans an opening.
+_WIDE = 10.0  # chosen: unseen
+_CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 _OF_POINTS_ALONE = (SidesFrom.TIGHT_COCONE, SidesFrom.POLES)
 
 
@@ -46,19 +55,11 @@ def solid_warnings(
                 "give sheets thickness (a Solidify modifier), or close the mesh"
             )
         yield from _of_points_alone(chosen)
-    if normals_look_inward(sides, chosen):
+    if chosen.normals_look_inward:
         yield Severe(
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside Decided By Tight Cocone, and compute again"
         )
-
-
-def normals_look_inward(sides: SidesFrom, chosen: ChosenSamples) -> bool:
-    """Return whether normals decide what is inside, and point into it."""
-    samples = chosen.samples
-    if sides is not SidesFrom.NORMALS or samples.normals is None:
-        return False
-    return look_inward(samples.points, samples.normals)
 
 
 def _of_topology(shape: Shape, chosen: ChosenSamples, betti: tuple[int, int, int]) -> Iterator[str]:
@@ -111,3 +112,83 @@ def _open_surface(chosen: ChosenSamples) -> str:
         f"the surface is open at {chosen.gaps:,} edges: the solid was taken to be where its winding "
         f"number is above one half, and {closing:,} samples close the openings"
     )
+
+
+def cocone_warnings(found: Any, points: Floats) -> Iterator[str]:
+    """Warn about suspicious properties of a surface that Tight Cocone found, a `_medial.TightCocone` of points."""
+    if not found.encloses:
+        yield Severe(
+            "the points enclose nothing, so inner and outer facets mean little; more points may help"
+        )
+        return
+    samples, off = len(found.samples), int(np.count_nonzero(~found.on_surface))
+    if off:
+        yield (
+            f"{off:,} of {samples:,} points are not on the surface that Tight Cocone found: "
+            "noise, points inside the shape, or too few of them there"
+        )
+    edges, vertices = found.nonmanifold_edges, found.nonmanifold_vertices
+    if edges or vertices:
+        yield (
+            f"the surface that Tight Cocone found touches itself at {edges:,} edges and "
+            f"{vertices:,} points: noise, or too few points for thin parts"
+        )
+    if wide := _wide_triangles(points, found.triangles):
+        yield (
+            f"Tight Cocone closed openings, by {wide:,} triangles more than {_WIDE:g} times as wide "
+            "as most: inside is a guess near them"
+        )
+    if found.cavities:
+        yield (
+            f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
+            "which Tight Cocone fills; faces, normals or Inside Decided By Poles would keep them"
+        )
+    uneven = np.count_nonzero(~found.flat) / samples
+    if uneven > _UNEVEN:
+        yield (
+            f"{uneven:.0%} of the points do not look like samples of a smooth surface: too few, "
+            "too noisy, or many sharp edges; inside may be wrong there"
+        )
+
+
+def pole_warnings(analysis: Any, points: Floats) -> Iterator[str]:
+    """Warn about suspicious properties of the solid that the poles determine.
+
+    It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
+
+    The sides of the analysis of these (n, 3) points are from the poles.
+    """
+    crossing = int(native.load().Side.CROSSING)
+    pairs = analysis.edges[analysis.side == crossing]
+    samples, off = len(analysis.samples), len(analysis.samples) - len(np.unique(pairs))
+    if 2 * off > samples:
+        yield Severe(
+            f"{off:,} of {samples:,} points are not on the surface that the poles tell, so inner and outer facets mean "
+            "little: a sheet that bounds no solid, or too few points; side Both needs no inside"
+        )
+        return
+    if off:
+        yield (
+            f"{off:,} of {samples:,} points are not on the surface that the poles tell: "
+            "noise, points inside the shape, or too few of them there"
+        )
+    along = points[pairs[:, 0]] - points[pairs[:, 1]]
+    if wide := _far_above(np.linalg.norm(along, axis=1)):
+        yield (
+            f"the surface that the poles tell has {wide:,} edges more than {_WIDE:g} times as long as most, across "
+            "openings or where noise tears it: inside is a guess near them"
+        )
+
+
+def _wide_triangles(points: Floats, triangles: Ints) -> int:
+    edges = np.empty(len(triangles))
+    for start in range(0, len(triangles), _CHUNK):
+        corners = points[triangles[start : start + _CHUNK]]
+        sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+        edges[start : start + _CHUNK] = sides.max(axis=1)
+    return _far_above(edges)
+
+
+def _far_above(lengths: Floats) -> int:
+    """Count the lengths that are many times the median one."""
+    return int(np.count_nonzero(lengths > _WIDE * np.median(lengths))) if len(lengths) else 0

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats, Ints
+from ..axis.solid_warnings import cocone_warnings
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..samples.sides import cocone_warnings
 from ..samples.thinning import thinned_rows
 from ..shape.triangle_faces import TriangleFaces
 

@@ -63,10 +63,7 @@ def begin(
     part = _WRAPPING if settings.sides is SidesFrom.WRAP else _PREPARING
     given = prepare(shape, settings, progress.part(part))
     passes = _Passes(progress, limit, levels)
-    try:
-        chosen = passes.chosen(given)
-    except MemoryLimitError as error:
-        chosen = passes.chosen(thinned(given, limit, error))
+    chosen = passes.chosen(given)
     progress.until(1.0)
     return Begun(given.read, chosen, progress, start, given.given)
 
@@ -90,13 +87,16 @@ class _Passes:
         return step
 
     def _next(self, step: Again | Compare) -> Again | Compare | ChosenSamples:
-        """Take a step and judge it; where the memory is short in pairs, the samples before have to do."""
+        """Take a step and judge it; where the memory is short, samples without pairs have to do, or fewer points."""
         try:
             passes = self._made(step) if isinstance(step, Again) else self._compared(step)
-        except MemoryLimitError:
-            if not trials(step.passes):
+        except MemoryLimitError as error:
+            if trials(step.passes):
+                return finish(step.plan, step.passes)
+            if step.plan.given.thinned:
                 raise
-            return finish(step.plan, step.passes)
+            plan = decide(thinned(step.plan.given, self.limit, error))
+            return Again(plan, plan.first)
         except DegenerateInputError:
             if not step.plan.is_trial:
                 raise

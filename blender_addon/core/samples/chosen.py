@@ -5,9 +5,12 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from ..machine.progress import Progress
-from ..settings import SamplingMode
+from ..settings import SamplingMode, SidesFrom
 from ..shape.shape import Shape
 from .analysed import Analysed, Sides
 from .doubts import WorstDoubt
@@ -39,6 +42,17 @@ class ChosenSamples:
             return {}
         solid = self.samples.solid
         return {"pairs": True, "smooth": False} if solid and solid.flat else {"pairs": True}
+
+    @cached_property
+    def normals_look_inward(self) -> bool:
+        """Whether normals decide what is inside, and those of the outermost samples along the axes point into it."""
+        points, normals = self.samples.points, self.samples.normals
+        if self.sides.source is not SidesFrom.NORMALS or normals is None:
+            return False
+        lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
+        lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
+        low, high = (normals[rows, range(3)] / lengths[rows] for rows in (lowest, highest))
+        return bool(high.sum() < low.sum())
 
 
 class OfChosenSamples:

@@ -6,12 +6,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..settings import Form, SamplingMode, Side, SidesFrom
-from ..shape.check_faces import check_faces, check_not_flat
-from ..shape.outward_faces import none_left
+from ..shape.check_faces import check_faces, check_not_a_sheet, check_not_flat, check_some_left
 from .analysed import Sides
 from .prepare import Input
 from .sample_spacing import Amount
-from .sides import check_not_a_sheet, resolve_sides, resolve_sides_of_samples
+from .sides import resolve_sides, resolve_sides_of_samples
 
 
 @dataclass(frozen=True)
@@ -59,49 +58,38 @@ def decide(given: Input) -> Plan:
     """Plan what is analysed first: the vertices, as a trial where samples of the faces may show more, or samples."""
     shape, wanted = given.shape, given.settings.sampling
     if wanted is SamplingMode.VERTICES:
-        return _of_vertices(given, "as chosen")
+        return plan_of(given, "as chosen", of_faces=False)
     if not len(shape.triangles):
         check_faces(shape, wanted)
-        return _of_vertices(given, "there are no faces")
+        return plan_of(given, "there are no faces", of_faces=False)
     if wanted is not SamplingMode.AUTOMATIC:
-        return decide_on_faces(given, "as chosen")
+        return plan_of(given, "as chosen", of_faces=True)
     if not shape.of_samples:
-        return decide_on_faces(given, "the object has no vertices of its own")
-    if _by_open_faces(given):
-        return decide_on_faces(given, "the mesh is open, and samples close its openings")
-    return _of_vertices(given, "dense enough", is_trial=True)
+        return plan_of(given, "the object has no vertices of its own", of_faces=True)
+    if given.by_open_faces:
+        why = "the mesh is open, and samples close its openings"
+        return plan_of(given, why, of_faces=True)
+    return plan_of(given, "dense enough", of_faces=False, is_trial=True)
 
 
-def decide_on_faces(given: Input, why: str, is_sparse: bool = False) -> Plan:
-    """Plan samples of the faces."""
-    shape = given.shape
-    check_not_flat(shape)
-    sides = resolve_sides_of_samples(
-        given.settings.sides, shape, shape.open_edges, given.first.spacing
-    )
-    check_not_a_sheet(sides, given.settings.side, shape.open_edges)
-    if shape.left_out.all():
-        raise none_left(shape)
-    return _plan(given, sides, why, given.first, of_faces=True, is_sparse=is_sparse)
-
-
-def _of_vertices(given: Input, why: str, is_trial: bool = False) -> Plan:
-    first = Amount(len(given.shape.points), 0.0, _TRIAL if is_trial else 1.0)
-    sides = _sides_of_vertices(given)
-    if sides.source is SidesFrom.SURFACE and given.shape.left_out.all():
-        if is_trial:
-            check_not_flat(given.shape)
-        raise none_left(given.shape)
-    return _plan(given, sides, why, first, of_faces=False, is_trial=is_trial)
-
-
-def _plan(
-    given: Input, sides: Sides, why: str, first: Amount, *, of_faces: bool, **kind: bool
+def plan_of(
+    given: Input, why: str, *, of_faces: bool, is_trial: bool = False, is_sparse: bool = False
 ) -> Plan:
-    settings = given.settings
+    """Plan samples of the faces, or the vertices.
+
+    Raises
+    ------
+    DegenerateInputError
+        Faces are to decide what is inside, and bound nothing.
+    """
+    settings, shape, sides = given.settings, given.shape, _sides(given, of_faces)
     effort, by_surface = _EFFORT[settings.sampling], sides.source is SidesFrom.SURFACE
+    if of_faces or by_surface:
+        check_some_left(shape, settings.sampling)
     if of_faces:
-        first = replace(first, share=1.0 if effort.passes == 1 else _FIRST)
+        first = replace(given.first, share=1.0 if effort.passes == 1 else _FIRST)
+    else:
+        first = Amount(len(shape.points), 0.0, _TRIAL if is_trial else 1.0)
     is_level = settings.side is Side.INNER and settings.form is not Form.PUBLISHED
     return Plan(
         given=given,
@@ -111,27 +99,22 @@ def _plan(
         first=first,
         effort=effort,
         has_sphere=settings.side is not Side.INNER,
-        closes_openings=of_faces and by_surface and given.shape.open_edges > 0,
+        closes_openings=of_faces and by_surface and shape.open_edges > 0,
         compares=settings.sampling is SamplingMode.AUTOMATIC and is_level,
-        **kind,
+        is_trial=is_trial,
+        is_sparse=is_sparse,
     )
 
 
-def _by_open_faces(given: Input) -> bool:
-    """Return whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
-    shape, wanted = given.shape, given.settings.sides
-    is_given = shape.normals is not None and bool(shape.normals.any())
-    return wanted is SidesFrom.AUTOMATIC and shape.open_edges > 0 and not is_given
-
-
-def _sides_of_vertices(given: Input) -> Sides:
+def _sides(given: Input, of_faces: bool) -> Sides:
+    """Decide what tells inside from outside; without a choice the faces of a sheet do so for both sides alone."""
     shape, settings = given.shape, given.settings
-    gaps = shape.open_edges
-    if _by_open_faces(given):
-        sides = resolve_sides_of_samples(settings.sides, shape, gaps, given.first.spacing)
-        if sides.source is SidesFrom.NORMALS:
-            check_not_flat(shape)
-        check_not_a_sheet(sides, settings.side, gaps)
-        if sides.source is SidesFrom.SURFACE:
+    if of_faces:
+        check_not_flat(shape)
+    if of_faces or given.by_open_faces:
+        sides = resolve_sides_of_samples(settings.sides, shape, given.first.spacing)
+        if sides.source is SidesFrom.NORMALS and not sides.is_chosen:
+            check_not_a_sheet(shape, settings.side)
+        if of_faces or sides.source is SidesFrom.SURFACE:
             return sides
-    return resolve_sides(settings.sides, shape.triangles, gaps, shape.normals)
+    return resolve_sides(settings.sides, shape.triangles, shape.open_edges, shape.normals)

@@ -15,7 +15,7 @@ from itertools import pairwise, takewhile
 from ..settings import SamplingMode
 from .analysed import Analysed
 from .chosen import ChosenSamples
-from .decide import Plan, decide_on_faces
+from .decide import Plan, plan_of
 from .density import percent
 from .doubts import Topology, worst_doubt
 from .next_amount import CROSSED, finer_in_pairs, next_amount, pairs_cross, sharp_on_flat
@@ -103,7 +103,7 @@ def _of_vertices(plan: Plan, analysed: Analysed) -> Again | ChosenSamples:
 
 def instead_of_vertices(plan: Plan, why: str, is_sparse: bool = False) -> Again:
     """Return the first pass over the faces."""
-    faces = decide_on_faces(plan.given, why, is_sparse)
+    faces = plan_of(plan.given, why, of_faces=True, is_sparse=is_sparse)
     return Again(faces, faces.first)
 
 

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The connected parts of the faces of a shape: how many, how they were read, and each as a shape of its own."""
+"""The connected parts of the faces of a shape: sheets are left out, and each other part is a shape of its own."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,111 +13,11 @@ from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..shape.bent_sheets import bent_sheets
-from ..shape.check_faces import check_not_flat
+from ..shape.check_faces import check_not_a_sheet, check_not_flat, open_sheet_error
 from ..shape.outward_faces import outward_shape
-from ..shape.shape import OF_SHEETS, TURNED, Shape
+from ..shape.shape import OF_SHEETS, Shape
 from .sample_spacing import first_pass
-from .sides import are_sheets, open_sheet_error, resolve_sides_of_samples
-
-MOST_ROWS = 1000  # of the table of parts
-
-
-class Place(IntEnum):
-    """How a connected part lies to the others, as `_medial.part_places` numbers it."""
-
-    APART = 0
-    TOUCHING = 1
-    WITHIN = 2
-    OVERLAPPING = 3
-    SHEET = 4
-
-
-@dataclass(frozen=True)
-class PartCounts:
-    """A connected part of the faces, with its number from 1, in the order of the first faces of all parts."""
-
-    part: int
-    faces: int
-    turned: int  # The number of its faces that were read the other way round
-    open: bool
-    # `apart`, `touching`, `within` (another part), `overlapping` or `sheet` (without thickness)
-    place: str
-
-
-@dataclass(frozen=True)
-class MeshCounts:
-    """The numbers of faces, of connected parts, and of parts of a kind."""
-
-    faces: int
-    parts: int
-    open: int = 0
-    turned: int = 0  # Parts with faces that were read the other way round
-    # Parts that share some of their volume with others; together they are one solid
-    overlapping: int = 0
-    # Parts that lie inside another one; that only touch others; that do neither
-    within: int = 0
-    touching: int = 0
-    apart: int = 0
-    sheets: int = 0  # Parts without thickness
-    table: tuple[PartCounts, ...] = ()  # The first parts, at most `MOST_ROWS`; empty for one part
-
-    def __str__(self) -> str:
-        """Return a sentence; it is empty for one part."""
-        if self.parts < 2:
-            return ""
-        kinds = (
-            (self.open, f"{self.open:,} of them open"),
-            (self.turned, f"{self.turned:,} of them with faces that were turned"),
-            (self.overlapping, f"{self.overlapping:,} of them overlapping others"),
-            (self.within, f"{self.within:,} of them inside another"),
-            (self.touching, f"{self.touching:,} of them only touching others"),
-            (self.apart, f"{self.apart:,} of them apart from all others"),
-            (self.sheets, f"{self.sheets:,} of them without thickness"),
-        )
-        told = [words for count, words in kinds if count]
-        return "; ".join((f"{self.parts:,} connected parts", *told))
-
-
-def mesh_counts(shape: Shape) -> MeshCounts | None:
-    """Count the connected parts of a shape as it was given or read; None where there are no faces."""
-    if not len(shape.triangles):
-        return None
-    with native.own_errors() as module:
-        part, is_open, place = module.part_places(shape.points, shape.triangles)
-    if is_open.any():
-        place = np.where(bent_sheets(shape, part, len(place)), np.uint8(Place.SHEET), place)
-    known, count = part >= 0, len(place)
-    turned = np.zeros(len(part), bool) if shape.reading is None else shape.reading == TURNED
-    faces_of = np.bincount(part[known], minlength=count)
-    turned_of = np.bincount(part[known & turned], minlength=count)
-    lying = np.bincount(place, minlength=len(Place)).tolist()
-    return MeshCounts(
-        faces=len(part),
-        parts=count,
-        open=int(np.count_nonzero(is_open)),
-        turned=int(np.count_nonzero(turned_of)),
-        overlapping=lying[Place.OVERLAPPING],
-        within=lying[Place.WITHIN],
-        touching=lying[Place.TOUCHING],
-        apart=lying[Place.APART],
-        sheets=lying[Place.SHEET],
-        table=_table(faces_of, turned_of, is_open, place) if count > 1 else (),
-    )
-
-
-def _table(
-    faces: NDArray[np.intp], turned: NDArray[np.intp], is_open: Flags, place: NDArray[np.uint8]
-) -> tuple[PartCounts, ...]:
-    return tuple(
-        PartCounts(
-            part=row + 1,
-            faces=int(faces[row]),
-            turned=int(turned[row]),
-            open=bool(is_open[row]),
-            place=Place(int(place[row])).name.lower(),
-        )
-        for row in range(min(len(place), MOST_ROWS))
-    )
+from .sides import are_sheets, resolve_sides_of_samples
 
 
 def without_sheets(shape: Shape, settings: Settings) -> Shape:
@@ -138,13 +37,16 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     DegenerateInputError
         One side is wanted, and all faces are those of bent sheets.
     """
-    if settings.sampling is SamplingMode.VERTICES:
+    by_open_faces = settings.sides is SidesFrom.AUTOMATIC and shape.open_edges > 0
+    if settings.sampling is SamplingMode.VERTICES or not by_open_faces:
         return shape
-    shape = _without_bent_sheets(shape, settings)
-    if not _open_edges(shape, settings):
-        return shape
+    of_sheets, are_all = _are_of_bent_sheets(shape)
+    if not are_all:
+        shape = _leave_out(shape, of_sheets)
+    elif settings.side is not Side.BOTH:
+        check_not_a_sheet(shape, settings.side)
     part, is_open = shape.connected
-    if len(is_open) < 2:
+    if not shape.open_edges or len(is_open) < 2:
         return shape
     spacing = first_pass(shape, settings).spacing
     of_sheets = (part >= 0) & are_sheets(shape, part, is_open, spacing)[part]
@@ -154,22 +56,10 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
 def check_no_sheet(shape: Shape) -> None:
     """Raise DegenerateInputError where faces, which look outward, are those of open sheets and of nothing else."""
     plain = Settings()
-    if gaps := _open_edges(shape, plain):
+    if shape.open_edges:
         check_not_flat(shape)
         if _are_of_bent_sheets(shape)[1] or _is_sheet(without_sheets(shape, plain), plain):
-            raise open_sheet_error(gaps, of_axis=False)
-
-
-def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
-    if not (gaps := _open_edges(shape, settings)):
-        return shape
-    of_sheets, are_all = _are_of_bent_sheets(shape)
-    if not are_all:
-        return _leave_out(shape, of_sheets)
-    if settings.side is Side.BOTH:
-        return shape
-    check_not_flat(shape)
-    raise open_sheet_error(gaps)
+            raise open_sheet_error(shape.open_edges, of_axis=False)
 
 
 def _are_of_bent_sheets(shape: Shape) -> tuple[Flags, bool]:
@@ -261,21 +151,15 @@ def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
     return _is_sheet(shape, settings) or bool(bent_sheets(read, whole, 1).any())
 
 
-def _open_edges(shape: Shape, settings: Settings) -> int:
-    """Count the edges at which faces are open, if open faces may decide what is inside; else 0."""
-    return shape.open_edges if settings.sides is SidesFrom.AUTOMATIC else 0
-
-
 def _is_sheet(shape: Shape, settings: Settings) -> bool:
     """Return whether faces bound too little of a solid to decide what is inside, as they should."""
     if settings.sides is not SidesFrom.AUTOMATIC:
         return False
     read = outward_shape(shape)
-    gaps = _open_edges(read, settings)
-    if not gaps:
+    if not read.open_edges:
         return False
     spacing = first_pass(read, settings).spacing
-    sides = resolve_sides_of_samples(settings.sides, read, gaps, spacing)
+    sides = resolve_sides_of_samples(settings.sides, read, spacing)
     return sides.source is not SidesFrom.SURFACE
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from ..settings import Settings, SidesFrom
@@ -25,13 +26,28 @@ class Input:
     read: Shape  # Without sheets, or wrapped; before points were moved or left out
     shape: Shape  # The one that is analysed
     settings: Settings  # `side` is not AUTOMATIC, and a wrap is a closed surface
-    sharp: float  # The angle from which edges are sharp
-    first: Amount  # The amount of a first pass over the faces; nothing where there are none
     # The measures of points without faces, and what was done to them; None where there are faces
     scan: Scan | None = None
     wrap: str = ""  # The reason for what is inside of a wrap; or empty
     # A sentence that explains why there are fewer samples than the settings ask for; or empty
     thinned: str = ""
+
+    @property
+    def sharp(self) -> float:
+        """The angle from which edges are sharp."""
+        return sharp_angle_of(self.shape, self.settings)
+
+    @cached_property
+    def first(self) -> Amount:
+        """The amount of a first pass over the faces, which there have to be."""
+        return first_pass(self.shape, self.settings)
+
+    @property
+    def by_open_faces(self) -> bool:
+        """Whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
+        normals, wanted = self.shape.normals, self.settings.sides
+        is_given = normals is not None and bool(normals.any())
+        return wanted is SidesFrom.AUTOMATIC and self.shape.open_edges > 0 and not is_given
 
 
 def prepare(shape: Shape, settings: Settings, progress: Any) -> Input:
@@ -44,23 +60,12 @@ def prepare(shape: Shape, settings: Settings, progress: Any) -> Input:
         `side` is not AUTOMATIC.
     progress : _medial.Progress
     """
-    given, read, shape, settings, found = _read(shape, settings, progress)
-    sharp, first = sharp_angle_of(shape, settings), Amount(0, 0.0)
-    if len(shape.triangles):
-        first = first_pass(shape, settings)
-    return Input(given, read, shape, settings, sharp, first, **found)
-
-
-def _read(
-    shape: Shape, settings: Settings, progress: Any
-) -> tuple[Shape, Shape, Shape, Settings, dict[str, Any]]:
-    """Return `Input.given`, `read`, `shape` and `settings`, and what else is known."""
     if settings.sides is SidesFrom.WRAP:
         wrap = wrapped_shape(shape, settings, progress)
-        return shape, wrap, wrap, without_wrap(settings), {"wrap": wrap_reason(wrap, settings)}
+        return Input(shape, wrap, wrap, without_wrap(settings), wrap=wrap_reason(wrap, settings))
     if not len(shape.triangles):
         smooth, scan = prepared(shape, settings, progress)
-        return shape, shape, smooth, settings, {"scan": scan}
+        return Input(shape, shape, smooth, settings, scan=scan)
     given = outward_shape(shape)
-    read = without_sheets(given, settings) if given.open_edges else given
-    return given, read, read, settings, {}
+    read = without_sheets(given, settings)
+    return Input(given, read, read, settings)

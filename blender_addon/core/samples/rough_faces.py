@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats
 from ..machine import native
 from ..settings import Prepare, Settings, SidesFrom
 from ..shape.shape import Shape
-from ..shape.triangles import unit_normals
-from ..small_matrices import dot, summed
+from ..shape.triangles import area_vectors, unit_vectors
+from ..small_matrices import dot
 from .scan import SOME
-from .surface_normals import cross
 
 SMOOTHING = 0.02  # of the whole work, as few faces are noisy; work: progress
 # In spacings: with more noise faces fold over each other, and their normals say nothing.
@@ -53,15 +52,14 @@ def smooth_faces(
         return shape, ""  # the sampling refuses such faces, in a sentence
     if settings.prepare is not Prepare.ALWAYS and not _are_even(shape):
         return shape, ""
-    unit = _of_size_one(shape.points)
-    normals = _vertex_normals(unit, shape.triangles)
+    faces, normals = area_vectors(_of_size_one(shape.points), shape.triangles)
     with native.own_errors() as module:
         measure = module.surface_noise(shape.points, normals, progress=progress)
         noise = measure.noise / measure.spacing if measure.noise > 0.0 else 0.0
         enough = 0.0 if settings.prepare is Prepare.ALWAYS else SOME
         if noise <= enough:
             return shape, ""
-        if settings.prepare is not Prepare.ALWAYS and are_cubes(unit, shape.triangles):
+        if settings.prepare is not Prepare.ALWAYS and are_cubes(faces):
             return shape, _OF_CUBES if settings.prepare is Prepare.AUTOMATIC else ""
         if settings.prepare is Prepare.OFF or noise > _TOO_MUCH:
             return shape, _left(noise, settings.prepare)
@@ -101,19 +99,13 @@ def _of_size_one(points: Floats) -> Floats:
     return np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
 
 
-def _vertex_normals(points: Floats, triangles: Ints) -> Floats:
-    """Return sums of the areas of the faces round each vertex, (n, 3), along their normals."""
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    return summed(triangles, cross(b - a, c - a)[:, None], len(points))
-
-
-def are_cubes(points: Floats, triangles: Ints) -> bool:
+def are_cubes(faces: Floats) -> bool:
     """Return whether nearly all of the area looks along three directions that are perpendicular to each other.
 
-    Such are meshes of cubes, as of voxel art: their steps are meant. The (n, 3) points are in a unit in which the
-    squares of areas are finite, and there is at least one triangle.
+    Such are meshes of cubes, as of voxel art: their steps are meant. The (f, 3) normals of faces, at least one, are as
+    long as their areas are large, in a unit in which squares of areas are finite.
     """
-    normals, area = unit_normals(points[triangles])
+    normals, area = unit_vectors(faces)
     tried = np.linspace(0, len(normals) - 1, _TRIED).astype(np.int64)
     most = max(_area_along(normals, area, normals[one]) for one in tried)
     return bool(most >= _NEARLY_ALL * area.sum())

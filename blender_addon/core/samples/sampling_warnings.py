@@ -5,11 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ..errors import Severe
 from ..settings import SamplingMode
-from ..shape.nearness import same_place
 from ..shape.outward_faces import reading_warnings
 from ..shape.own_frame import rounding_warning
 from ..shape.shape import Shape
@@ -31,7 +28,8 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
     yield from reading_warnings(shape)
     if rounded := rounding_warning(shape, samples.spacing, "samples are apart by"):
         yield Severe(rounded)
-    if loose := _loose_vertices(shape, chosen):
+    on_faces = chosen.sampling is not SamplingMode.VERTICES
+    if on_faces and shape.of_samples and (loose := shape.loose_vertices):
         yield (
             f"{loose:,} vertices without a face were left out; choose Sampling Vertices to use them"
         )
@@ -49,7 +47,10 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
         )
     if chosen.differs:
         yield differs_warning(shape, chosen)
-    if density.share > _SPARSE and not _confirmed_by_faces(chosen) and not is_noisy(chosen.scan):
+    # Near sharp edges every sample is above any epsilon, however right the axis is; so rays from the faces decide where
+    # they can.
+    is_confirmed = on_faces and walls is not None and not walls.are_missed
+    if density.share > _SPARSE and not is_confirmed and not is_noisy(chosen.scan):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
@@ -83,23 +84,3 @@ def _differs(chosen: ChosenSamples) -> str:
         f"{count:,} samples were taken: details, gaps or folds of the faces are smaller than "
         f"their spacing{where}; a larger Budget or Merge by Distance may help"
     )
-
-
-def _confirmed_by_faces(chosen: ChosenSamples) -> bool:
-    """Return whether rays from the faces found no wall that the samples on them miss.
-
-    Near sharp edges every sample is above any epsilon, however right the axis is; so the faces decide where they can.
-    """
-    walls = chosen.samples.walls
-    on_faces = chosen.sampling is not SamplingMode.VERTICES
-    return on_faces and walls is not None and not walls.are_missed
-
-
-def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:
-    """Count the vertices that belong to no face, where faces were sampled; 0 for curves and texts."""
-    if chosen.sampling is SamplingMode.VERTICES or not shape.of_samples:
-        return 0
-    if not shape.left_out.any():
-        return len(shape.points) - len(np.unique(shape.triangles))
-    place = same_place(shape.points)  # the corners of a face that was left out are those of another
-    return len(np.unique(place)) - len(np.unique(place[shape.triangles]))

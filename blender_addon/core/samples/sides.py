@@ -1,29 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The decision between inside and outside: by faces, normals or Tight Cocone, the reason, and warnings about it."""
+"""The decision between inside and outside: by faces, normals or Tight Cocone, and the reason."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
-from ..errors import DegenerateInputError, InvalidInputError, Severe
+from ..errors import InvalidInputError
 from ..machine import native
-from ..settings import Side, SidesFrom
-from ..shape.nearness import same_place
+from ..settings import SidesFrom
 from ..shape.shape import Shape
 from ..shape.triangles import FEW, some_of
-from ..small_matrices import dot
 from .analysed import Sides
 from .buried_samples import outer_share, sides_of_faces
 
-# A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
-_UNEVEN = 0.1  # measured: 0.06 on clean scans
-# A triangle, or an edge, that is this many times as wide as the median one spans an opening.
-_WIDE = 10.0  # chosen: unseen
-_CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 # Where a smaller share of the faces that do not lie in the solid bounds it, they are a sheet: half of a
 # wavy sheet does.
 _BOUNDING = 0.75  # derived: kBounding
@@ -68,20 +60,21 @@ def resolve_sides(wanted: SidesFrom, triangles: Ints, gaps: int, normals: Floats
     return Sides(wanted, "as chosen", is_chosen=True)
 
 
-def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing: float) -> Sides:
+def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, spacing: float) -> Sides:
     """Do the same as `resolve_sides` for samples of faces, which have the normals of the faces.
 
     The solid of an open mesh is the region where its winding number is above one half, provided that most of the faces
     outside of this region's interior bound it. The faces of a sheet do not; there the votes of the normals determine
-    what lies behind it, which `check_not_a_sheet` takes only for an axis of both sides.
+    what lies behind it, which `decide` takes only for an axis of both sides.
 
-    The faces are open at `gaps` edges; the spacing is the distance of neighbouring samples.
+    The spacing is the distance of neighbouring samples.
     """
     if wanted is not SidesFrom.AUTOMATIC:
         return Sides(wanted, "as chosen", is_chosen=True)
+    gaps = shape.open_edges
     bounded = gaps == 0 or outer_share(shape, spacing) >= _BOUNDING
     # Normals mean nothing where more of the edges lie between faces of opposite orientation.
-    turned = bounded or _turned(shape.points, shape.triangles) <= FEW
+    turned = bounded or shape.turned_share <= FEW
     is_open = f"the mesh is open at {gaps:,} edges"
     by_winding = f"the winding number of the faces, for {is_open}"
     reasons = {
@@ -110,31 +103,6 @@ def are_sheets(shape: Shape, part: Ints, is_open: Flags, spacing: float) -> Flag
     return (every > 0.0) & np.where(outer > 0.0, bounding < _BOUNDING * outer, is_open)
 
 
-def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
-    """Raise DegenerateInputError where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
-
-    The sides are as `resolve_sides_of_samples` returns them; the faces are open at `gaps` edges.
-    """
-    if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
-        raise open_sheet_error(gaps)
-
-
-def open_sheet_error(gaps: int, of_axis: bool = True) -> DegenerateInputError:
-    """Return the error for faces that are open at `gaps` edges and bound no solid, also for results without a side."""
-    others = ", or choose Side Both, or Inside Decided By Normals for what lies behind it"
-    return DegenerateInputError(
-        f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        f"Solidify modifier){others if of_axis else ''}"
-    )
-
-
-def _turned(points: Floats, triangles: Ints) -> float:
-    """Return the share of edges through which another triangle runs in the same direction."""
-    ends = same_place(points)[triangles]
-    edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
-    return 1.0 - len(np.unique(edges)) / len(edges)
-
-
 def _automatic(bounded: bool, has_normals: bool) -> SidesFrom:
     """Return the source that the compiled module takes for AUTOMATIC: the rule is there."""
     with native.own_errors() as module:
@@ -150,91 +118,3 @@ def decided(sides: Sides, analysis: Any) -> Sides:
         against = f"{analysis.pole_disagreement:.0%}"
         reason = f"{reason}, and the poles of {against} of the points contradict Tight Cocone"
     return Sides(source, reason)
-
-
-def look_inward(points: Floats, normals: Floats) -> bool:
-    """Return whether the normals of the outermost samples along the coordinate axes point inward on the whole."""
-    lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
-    lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
-    low, high = (normals[rows, range(3)] / lengths[rows] for rows in (lowest, highest))
-    return bool(high.sum() < low.sum())
-
-
-def cocone_warnings(found: Any, points: Floats) -> Iterator[str]:
-    """Warn about suspicious properties of a surface that Tight Cocone found, a `_medial.TightCocone` of points."""
-    if not found.encloses:
-        yield Severe(
-            "the points enclose nothing, so inner and outer facets mean little; more points may help"
-        )
-        return
-    samples, off = len(found.samples), int(np.count_nonzero(~found.on_surface))
-    if off:
-        yield (
-            f"{off:,} of {samples:,} points are not on the surface that Tight Cocone found: "
-            "noise, points inside the shape, or too few of them there"
-        )
-    edges, vertices = found.nonmanifold_edges, found.nonmanifold_vertices
-    if edges or vertices:
-        yield (
-            f"the surface that Tight Cocone found touches itself at {edges:,} edges and "
-            f"{vertices:,} points: noise, or too few points for thin parts"
-        )
-    if wide := _wide_triangles(points, found.triangles):
-        yield (
-            f"Tight Cocone closed openings, by {wide:,} triangles more than {_WIDE:g} times as wide "
-            "as most: inside is a guess near them"
-        )
-    if found.cavities:
-        yield (
-            f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
-            "which Tight Cocone fills; faces, normals or Inside Decided By Poles would keep them"
-        )
-    uneven = np.count_nonzero(~found.flat) / samples
-    if uneven > _UNEVEN:
-        yield (
-            f"{uneven:.0%} of the points do not look like samples of a smooth surface: too few, "
-            "too noisy, or many sharp edges; inside may be wrong there"
-        )
-
-
-def pole_warnings(analysis: Any, points: Floats) -> Iterator[str]:
-    """Warn about suspicious properties of the solid that the poles determine.
-
-    It has no triangles. But near its surface neighbours share a facet that crosses it, and points off it share none.
-
-    The sides of the analysis of these (n, 3) points are from the poles.
-    """
-    crossing = int(native.load().Side.CROSSING)
-    pairs = analysis.edges[analysis.side == crossing]
-    samples, off = len(analysis.samples), len(analysis.samples) - len(np.unique(pairs))
-    if 2 * off > samples:
-        yield Severe(
-            f"{off:,} of {samples:,} points are not on the surface that the poles tell, so inner and outer facets mean "
-            "little: a sheet that bounds no solid, or too few points; side Both needs no inside"
-        )
-        return
-    if off:
-        yield (
-            f"{off:,} of {samples:,} points are not on the surface that the poles tell: "
-            "noise, points inside the shape, or too few of them there"
-        )
-    along = points[pairs[:, 0]] - points[pairs[:, 1]]
-    if wide := _far_above(np.sqrt(dot(along, along))):
-        yield (
-            f"the surface that the poles tell has {wide:,} edges more than {_WIDE:g} times as long as most, across "
-            "openings or where noise tears it: inside is a guess near them"
-        )
-
-
-def _wide_triangles(points: Floats, triangles: Ints) -> int:
-    edges = np.empty(len(triangles))
-    for start in range(0, len(triangles), _CHUNK):
-        corners = points[triangles[start : start + _CHUNK]]
-        sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-        edges[start : start + _CHUNK] = sides.max(axis=1)
-    return _far_above(edges)
-
-
-def _far_above(lengths: Floats) -> int:
-    """Count the lengths that are many times the median one."""
-    return int(np.count_nonzero(lengths > _WIDE * np.median(lengths))) if len(lengths) else 0

@@ -12,6 +12,7 @@ from ..machine import native
 from ..portable_angle import cosine
 from ..settings import SamplingMode, SidesFrom
 from ..shape.shape import Shape
+from ..shape.triangles import area_vectors, unit_vectors
 from ..small_matrices import dot
 from .chosen import ChosenSamples
 
@@ -76,35 +77,12 @@ def _of_triangles(
     points: Floats, triangles: Ints, sharp_angle: float, source: str
 ) -> SurfaceNormals:
     """Take the mean normals of the triangles at each point."""
-    normals, faces = mean_normals(points, triangles)
+    faces, normals = (unit_vectors(some)[0] for some in area_vectors(points, triangles))
     at_edge = np.zeros(len(points), bool)
     for corner in triangles.T:
         turned = dot(normals[corner], faces) < cosine(sharp_angle)
         at_edge[corner[turned]] = True
     return SurfaceNormals(normals, at_edge, _sentence(source))
-
-
-def mean_normals(points: Floats, triangles: Ints) -> tuple[Floats, Floats]:
-    """Return the mean normal of the triangles at each point, (n, 3), of length 1 and by area, and (f, 3) their own."""
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    faces = cross(b - a, c - a)
-    normals = np.empty_like(points)
-    for axis in range(3):
-        weights = np.repeat(faces[:, axis], 3)
-        normals[:, axis] = np.bincount(triangles.ravel(), weights, len(points))
-    return unit(normals), unit(faces)
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """Return cross products of rows, (n, 3); NumPy's own function takes several times as long."""
-    (ax, ay, az), (bx, by, bz) = a.T, b.T
-    return np.column_stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
-
-
-def unit(vectors: Floats) -> Floats:
-    """Return vectors of length 1, (n, 3); zero vectors stay zero."""
-    lengths = np.linalg.norm(vectors, axis=1)[:, None]
-    return vectors / np.where(lengths > 0.0, lengths, 1.0)
 
 
 def _sentence(source: str) -> str:

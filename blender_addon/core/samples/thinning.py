@@ -15,7 +15,6 @@ from ..machine.memory_limit import MemoryLimit, megabytes
 from ..settings import COARSE, OPTIONS, AboveLimit, SamplingMode, Settings
 from ..shape.shape import Shape
 from .prepare import Input
-from .sample_spacing import first_pass
 
 # The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95  # chosen: unseen
@@ -49,8 +48,7 @@ def thinned(given: Input, limit: MemoryLimit, error: MemoryLimitError) -> Input:
     shape = given.shape
     if len(shape.triangles):
         settings, sentence = fewer_samples(shape, given.settings, given.first.count, limit, error)
-        first = first_pass(shape, settings)
-        return replace(given, settings=settings, first=first, thinned=sentence)
+        return replace(given, settings=settings, thinned=sentence)
     rows, sentence = thinned_rows(shape.points, limit, error)
     return replace(given, shape=_at_rows(shape, rows), thinned=sentence)
 

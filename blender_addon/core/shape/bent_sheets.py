@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Flags, Floats, Ints
+from ..arrays import Flags, Ints
 from ..machine import native
 from ..small_matrices import summed
 from .shape import Shape
@@ -30,9 +30,11 @@ def bent_sheets(shape: Shape, part: Ints, count: int) -> Flags:
     corners = shape.points[shape.triangles]
     vectors = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(vectors, axis=1)
-    lids = np.linalg.norm(summed(part[part >= 0], vectors[part >= 0], count), axis=1)
-    found = (lids > 0.0) & (lids >= _LIDS * _sum_of(areas, part, count))
-    faces = np.flatnonzero(found[part] & (part >= 0) & (areas > 0.0))
+    known = part >= 0
+    lids = np.linalg.norm(summed(part[known], vectors[known], count), axis=1)
+    whole = summed(part[known], areas[known], count)
+    found = (lids > 0.0) & (lids >= _LIDS * whole)
+    faces = np.flatnonzero(found[part] & known & (areas > 0.0))
     if not len(faces):
         return found
     middle = corners[faces].mean(axis=1)
@@ -43,10 +45,5 @@ def bent_sheets(shape: Shape, part: Ints, count: int) -> Flags:
             for way in (1, -1)
         )
         winding = 0.5 * sum(sides)
-    mean = _sum_of(areas[faces] * winding, part[faces], count)
-    return found & (np.abs(mean) < _ALONE * _sum_of(areas, part, count))
-
-
-def _sum_of(values: Floats, part: Ints, count: int) -> Floats:
-    known = part >= 0
-    return np.asarray(np.bincount(part[known], values[known], count), np.float64)
+    mean = summed(part[faces], areas[faces] * winding, count)
+    return found & (np.abs(mean) < _ALONE * whole)

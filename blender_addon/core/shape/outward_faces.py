@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import Flags, Floats, Ints
 from ..errors import DegenerateInputError
 from ..machine import native
-from .shape import OF_SHEETS, REPEATED, TURNED, WITHOUT_CORNERS, Shape
+from .shape import REPEATED, Shape
 
 # Odd numbers of 64 bits without a pattern, as splitmix64 has them.
 _FACTORS = np.array(
@@ -58,29 +58,9 @@ def _check_corners(shape: Shape) -> None:
         )
 
 
-def none_left(shape: Shape) -> DegenerateInputError:
-    """Return the error for faces each of which counts for nothing, so that none can decide what is inside."""
-    return DegenerateInputError(
-        f"Expected faces that bound a solid, found {len(shape.triangles):,} that repeat others, are sheets or have "
-        "no three corners; give them thickness (a Solidify modifier), or choose Inside From Tight Cocone"
-    )
-
-
-def reading_counts(shape: Shape) -> dict[str, int]:
-    """Return how many faces were read the other way round, and how many were left out and why."""
-    reading = np.zeros(0, np.uint8) if shape.reading is None else shape.reading
-    counts = np.bincount(reading, minlength=5)
-    return {
-        "turned": int(counts[TURNED]),
-        "repeated": int(counts[REPEATED]),
-        "without_corners": int(counts[WITHOUT_CORNERS]),
-        "of_sheets": int(counts[OF_SHEETS]),
-    }
-
-
 def reading_warnings(shape: Shape) -> Iterator[str]:
     """Say what was read in another way than it was given, a sentence each."""
-    counts, faces = reading_counts(shape), len(shape.triangles)
+    counts, faces = shape.reading_counts, len(shape.triangles)
     if turned := counts["turned"]:
         yield (
             f"{turned:,} of {faces:,} faces looked inward and were read the other way round; "

@@ -80,6 +80,28 @@ class Shape:
             return np.zeros(len(self.triangles), bool)
         return self.reading >= REPEATED
 
+    @property
+    def reading_counts(self) -> dict[str, int]:
+        """How many faces were read the other way round, and how many were left out and why."""
+        reading = np.zeros(0, np.uint8) if self.reading is None else self.reading
+        counts = np.bincount(reading, minlength=5)
+        return {
+            "turned": int(counts[TURNED]),
+            "repeated": int(counts[REPEATED]),
+            "without_corners": int(counts[WITHOUT_CORNERS]),
+            "of_sheets": int(counts[OF_SHEETS]),
+        }
+
+    @property
+    def loose_vertices(self) -> int:
+        """The number of vertices that belong to no face."""
+        if not self.left_out.any():
+            return len(self.points) - len(np.unique(self.triangles))
+        place = same_place(
+            self.points
+        )  # the corners of a face that was left out are those of another
+        return len(np.unique(place)) - len(np.unique(place[self.triangles]))
+
     @cached_property
     def rounding(self) -> float:
         """How far apart places may be that were meant to be one, as exactly as the coordinates were given."""
@@ -110,6 +132,13 @@ class Shape:
             return 0
         with native.own_errors() as module:
             return int(module.open_edges(self.points, self.triangles))
+
+    @property
+    def turned_share(self) -> float:
+        """The share of the edges of faces along which another face runs in the same direction."""
+        ends = same_place(self.points)[self.triangles]
+        edges = (ends * (len(self.points) + 1) + np.roll(ends, -1, axis=1)).ravel()
+        return 1.0 - len(np.unique(edges)) / len(edges)
 
     @cached_property
     def solid_betti(self) -> tuple[int, int, int] | None:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ..arrays import Flags, Floats, Ints
 from ..machine import native
 from ..samples.chosen import ChosenSamples
-from ..samples.surface_normals import cross
 from ..settings import Between, Edges, ThicknessSettings
 from ..shape.shape import Shape
+from ..shape.triangles import unit_normals
 from .bounded_lengths import MeasuredSurface
 from .close_walls import CloseWalls, is_shorter, rounding_of
 from .face_lengths import MeasuredFaces
@@ -112,8 +112,7 @@ class Measurement:
     @cached_property
     def areas(self) -> Floats:
         """(f,) the areas of the triangles."""
-        a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
-        return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
+        return unit_normals(self.points[self.triangles])[1] / 2
 
     def areas_below(self, limit: float) -> Floats:
         """(f,) the part of the area of each triangle that is drawn thinner than a limit.

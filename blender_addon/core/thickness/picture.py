@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Longs
-from ..samples.surface_normals import cross
+from ..shape.triangles import cross
 from ..small_matrices import length_of, times
 
 _FINE = 2  # pixels are computed that much finer in both directions, and averaged

@@ -22,16 +22,14 @@ from ..samples.noise import noise_of
 from ..samples.sides import resolve_sides
 from ..samples.surface_normals import (
     SurfaceNormals,
-    mean_normals,
     measured_surface,
     surface_normals,
-    unit,
 )
 from ..settings import Between, Edges, Form, Noise, SamplingMode, Settings, ThicknessSettings
 from ..shape.nearness import sample_of_row
 from ..shape.outward_faces import outward_shape, reading_warnings
 from ..shape.shape import Shape
-from ..shape.triangles import FEW
+from ..shape.triangles import FEW, area_vectors, unit_vectors
 from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls, no_close_walls
 from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
@@ -102,8 +100,8 @@ def _by_faces(
     sides = resolve_sides(settings.sides, shape.triangles, 0, None)
     noise = 0.0
     if not cut:
-        normals, _ = mean_normals(surface.points, surface.triangles)
-        noise = noise_of(surface.points, surface.triangles, normals)
+        _, normals = area_vectors(surface.points, surface.triangles)
+        noise = noise_of(surface.points, surface.triangles, unit_vectors(normals)[0])
     found = Measurement(
         shape=shape,
         chosen=MeasuredFaces(reason, sides, row),
@@ -229,7 +227,7 @@ def _noise(chosen: ChosenSamples, surface: Ints, known: SurfaceNormals) -> float
     """Measure the noise of vertices; samples that were laid on faces have none."""
     if chosen.sampling is not SamplingMode.VERTICES:
         return 0.0
-    return noise_of(chosen.samples.points, surface, unit(known.normals))
+    return noise_of(chosen.samples.points, surface, unit_vectors(known.normals)[0])
 
 
 def _warnings(found: Measurement) -> Iterator[str]:

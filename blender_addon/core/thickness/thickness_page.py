@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats
 from ..axis.colours import colours
 from ..samples.density import share_text
-from ..samples.surface_normals import cross
+from ..shape.triangles import cross
 from ..small_matrices import length_of
 from .measurement import Measurement
 from .picture import encoded, picture_of, png
