@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import distance
+from . import distance, topology
 from .crisp_solids import Solid
 from .crossing_triangles import crossing_pairs
 from .folds import Rings
@@ -108,7 +108,7 @@ class Found:
 
 def measured(solid: Solid, output: Output, samples: int) -> Found:
     size, cells = solid.diagonal, output.cells()
-    area, rings = facet_area(output), output.rings()
+    area, rings = topology.area(output.vertices, output.triangles), output.rings()
     return Found(
         samples=samples,
         facets=len(output.across),
@@ -168,11 +168,6 @@ def rim_turns(output: Output) -> Array:
     ways = ways[length.min(axis=1) > 1e-9 * np.linalg.norm(np.ptp(output.vertices, axis=0))]
     cosine = -np.einsum("vi,vi->v", *ways.transpose(1, 0, 2)) / np.linalg.norm(ways, axis=2).prod(1)
     return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
-
-def facet_area(output: Output) -> float:
-    a, b, c = output.vertices[output.triangles].transpose(1, 0, 2)
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
 
 def output_of(computation: Any, frame: Array, exact: bool = False) -> Output:

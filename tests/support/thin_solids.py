@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import meshes
+from . import inputs, meshes, resampled
 from .plates import prism
 from .thick_meshes import lathe
 
@@ -32,12 +32,7 @@ class ThinSolid:
 
 def turned(mesh: Mesh, seed: int = 1) -> Mesh:
     """The mesh in a random pose, rounded to float32 as meshes are stored."""
-    points, triangles = mesh
-    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    q = q * np.sign(np.diag(r))
-    if np.linalg.det(q) < 0:
-        q[:, 0] = -q[:, 0]
-    return (points @ q.T).astype(np.float32).astype(np.float64), triangles
+    return resampled.turned(mesh, inputs.rotation(seed))
 
 
 def union(*boxes: Box) -> Mesh:
