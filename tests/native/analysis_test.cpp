@@ -9,44 +9,6 @@
 namespace medial {
 namespace {
 
-MedialMesh axis(std::span<const Vec3> points, int threads) {
-  return MedialAnalysis({points}, {.threads = threads}, nullptr).extract({});
-}
-
-TEST(MedialAnalysis, GivesTheSameBytesForEveryThreadCount) {
-  const auto mesh = test::torus(120, 60);
-  const auto extracted = [&](int threads) {
-    return MedialAnalysis({mesh.vertices, mesh.triangles}, {.threads = threads}, nullptr)
-        .extract({.side = Side::inner});
-  };
-  const MedialMesh one = extracted(1), four = extracted(4);
-  EXPECT_GT(one.generators.size(), 1000u);
-  EXPECT_EQ(one.vertices, four.vertices);
-  EXPECT_EQ(one.radius, four.radius);
-  EXPECT_EQ(one.face_offsets, four.face_offsets);
-  EXPECT_EQ(one.face_vertices, four.face_vertices);
-  EXPECT_EQ(one.theta, four.theta);
-  EXPECT_EQ(one.rho, four.rho);
-  EXPECT_EQ(one.generators, four.generators);
-}
-
-TEST(MedialAnalysis, GridCubeHasExactlyTheFacetsOfItsTwelveSheets) {
-  const auto points = test::grid_cube(8);
-  const MedialMesh mesh = axis(points, 2);
-  EXPECT_EQ(mesh.generators.size(), 192u);
-  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    // On the axis of a cube the nearest two face planes are equally near.
-    std::array<double, 6> heights;
-    for (int k = 0; k < 3; ++k) {
-      const double x = (&mesh.vertices[v].x)[k];
-      heights[2 * k] = x;
-      heights[2 * k + 1] = 8 - x;
-    }
-    std::sort(heights.begin(), heights.end());
-    EXPECT_NEAR(heights[0], heights[1], 1e-12);
-  }
-}
-
 TEST(MedialAnalysis, CancelsFromAnotherThread) {
   const auto points = test::ellipsoid(200000, 5);
   Progress progress;

@@ -123,28 +123,6 @@ TEST(InscribedBalls, DependNeitherOnThreadsNorOnTheUnit) {
   }
 }
 
-TEST(InscribedBalls, OfASphereAreTheSphere) {
-  test::Mesh mesh;
-  constexpr int kRound = 64, kRings = 32;
-  for (int i = 0; i <= kRings; ++i) {
-    const double v = std::numbers::pi * i / kRings;
-    for (int j = 0; j < kRound; ++j) {
-      const double u = 2 * std::numbers::pi * j / kRound;
-      const double r = i == 0 || i == kRings ? 0 : std::sin(v);
-      mesh.vertices.push_back({r * std::cos(u), r * std::sin(u), std::cos(v)});
-      const int a = i * kRound + j, b = i * kRound + (j + 1) % kRound;
-      if (i == kRings) continue;
-      if (i > 0) mesh.triangles.push_back({a, a + kRound, b});
-      if (i < kRings - 1) mesh.triangles.push_back({b, a + kRound, b + kRound});
-    }
-  }
-  const auto found = measured(mesh, random_places(mesh, 500), true, 2);
-  for (size_t i = 0; i < found.diameter.size(); ++i) {
-    EXPECT_NEAR(found.diameter[i], 2, 0.02);
-    EXPECT_NEAR(found.wall[i], 2, 0.02);
-  }
-}
-
 // A torus of radii 1 and 0.4 whose rings are turned against each other by a share of a step, so
 // that triangles slant.
 test::Mesh tube(double turned) {

@@ -641,21 +641,6 @@ TEST(Method, FacetsOnALineAreLeftOut) {
   }
 }
 
-TEST(Method, RepeatedRowsAndTheirOrderChangeNothing) {
-  for (uint32_t seed = 0; seed < 20; ++seed) {
-    const Cloud cloud = rounded(gaussian(24, 1000 + seed));
-    const auto rows = cloud.rows();
-    auto more = rows;
-    for (size_t i = 0; i < 10; ++i) more.push_back(rows[(7 * i + seed) % rows.size()]);
-    const MedialAnalysis once = analysis_of(rows), again = analysis_of(more);
-    EXPECT_EQ(again.duplicates(), 10);
-    EXPECT_EQ(once.edge_rows(), again.edge_rows());
-    EXPECT_EQ(once.theta(Rule::either), again.theta(Rule::either));
-    EXPECT_EQ(once.rho(Rule::both), again.rho(Rule::both));
-    EXPECT_EQ(once.extract({}).vertices, again.extract({}).vertices);
-  }
-}
-
 // ---- Inside and outside ----------------------------------------------------------------------
 
 // A closed mesh of the eight faces of an octahedron, each cut `cuts` times, pushed to `radius`
@@ -759,26 +744,14 @@ Oracle oracle_of(const Cloud& cloud) {
   return {cloud.points, cloud.step, library_cells(cloud.rows())};
 }
 
-void expect_same_sides_of_surface(test::Mesh mesh, SidesFrom from = SidesFrom::automatic) {
+void expect_same_sides_of_surface(test::Mesh mesh) {
   const Cloud cloud = rounded(mesh.vertices);
   ASSERT_EQ(cloud.points.size(), mesh.vertices.size());
   mesh.vertices = cloud.rows();
-  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {.sides = from, .threads = 2},
-                                nullptr);
+  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {.threads = 2}, nullptr);
   ASSERT_EQ(analysis.sides_from(), SidesFrom::surface);
   const Oracle oracle = oracle_of(cloud);
   expect_same_sides(analysis, oracle, inside_surface(oracle, mesh));
-}
-
-TEST(MethodSides, ByAClosedSurface) {
-  for (uint32_t seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_same_sides_of_surface(rough_star(2, 0.02, seed));
-    expect_same_sides_of_surface(rough_star(2, 0.8, seed));
-    expect_same_sides_of_surface(rough_torus(14, 7, 0.02, seed));
-    expect_same_sides_of_surface(rough_torus(14, 7, 0.3, seed));
-    if (HasFailure()) return;
-  }
 }
 
 // These have so many cells that the winding number of one is derived from that of a neighbour.
@@ -786,27 +759,6 @@ TEST(MethodSides, ByALargerClosedSurface) {
   expect_same_sides_of_surface(rough_star(4, 0.03, 1));
   expect_same_sides_of_surface(rough_star(3, 0.7, 2));
   expect_same_sides_of_surface(rough_torus(36, 14, 0.15, 3));
-}
-
-TEST(MethodSides, ByAnOpenSurface) {
-  for (uint32_t seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    auto mesh = rough_star(2, 0.3, seed);
-    mesh.triangles.resize(mesh.triangles.size() * 3 / 4);
-    expect_same_sides_of_surface(mesh, SidesFrom::surface);
-  }
-}
-
-// Two shells, one inside of the other: between them is inside, the cavity is not.
-TEST(MethodSides, ByNestedShells) {
-  auto mesh = rough_star(2, 0.05, 7);
-  const auto cavity = rough_star(2, 0.05, 8);
-  const auto first = static_cast<int32_t>(mesh.vertices.size());
-  for (const Vec3& v : cavity.vertices) mesh.vertices.push_back(0.5 * v);
-  for (const auto& [a, b, c] : cavity.triangles) {
-    mesh.triangles.push_back({first + a, first + c, first + b});
-  }
-  expect_same_sides_of_surface(mesh);
 }
 
 TEST(MethodSides, BySurfaceWithVerticesOfItsOwn) {

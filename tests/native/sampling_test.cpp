@@ -198,17 +198,6 @@ TEST(PoissonDisks, KeepTheirDistanceFromEachOtherAndFromFixedOnes) {
   EXPECT_TRUE(inside);
 }
 
-TEST(Sampling, IsTheSameForAnyNumberOfThreads) {
-  const auto torus = test::torus(40, 20);
-  SamplingOptions options;
-  options.count = 4000;
-  options.smooth = true;
-  const SurfaceSamples one = sampled(torus, options, 1), four = sampled(torus, options, 4);
-  EXPECT_EQ(one.points, four.points);
-  EXPECT_EQ(one.radius, four.radius);
-  EXPECT_NEAR(static_cast<double>(one.points.size()), 4000, 80);
-}
-
 TEST(Sampling, RandomSoupsAreSampled) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     test::Mesh soup{test::random_points(30, seed), {}};
@@ -228,15 +217,6 @@ TEST(Sampling, RandomSoupsAreSampled) {
     for (const Vec3& p : samples.points) EXPECT_TRUE(std::isfinite(squared_length(p)));
     EXPECT_TRUE(std::is_sorted(samples.kind.begin(), samples.kind.end()));
   }
-}
-
-TEST(Sampling, StopsWhenCancelled) {
-  Progress progress;
-  progress.cancel();
-  const auto torus = test::torus(40, 20);
-  SamplingOptions options;
-  options.count = 1000;
-  EXPECT_THROW(sample_surface(torus.vertices, torus.triangles, options, 2, &progress), Cancelled);
 }
 
 }  // namespace

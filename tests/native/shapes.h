@@ -36,20 +36,6 @@ inline std::vector<Vec3> ellipsoid(int count, uint32_t seed) {
 // 0 in the middle of that ellipsoid, 1 on it.
 inline double height_in_ellipsoid(const Vec3& x) { return length({x.x, x.y / 0.75, x.z / 0.4}); }
 
-// The surface points of a cubic grid of `cells` cells per edge.
-inline std::vector<Vec3> grid_cube(int cells) {
-  std::vector<Vec3> points;
-  const auto rim = [&](int i) { return i == 0 || i == cells; };
-  for (int x = 0; x <= cells; ++x) {
-    for (int y = 0; y <= cells; ++y) {
-      for (int z = 0; z <= cells; ++z) {
-        if (rim(x) || rim(y) || rim(z)) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
-      }
-    }
-  }
-  return points;
-}
-
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;

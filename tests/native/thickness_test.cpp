@@ -78,19 +78,6 @@ TEST(Patches, ShareCornersAndAreNumberedInOrder) {
   EXPECT_EQ(patches(triangles, std::vector<uint8_t>(5, 0), 10), std::vector<int32_t>(5, -1));
 }
 
-// Every ball inside a sphere is the sphere, whatever the mode.
-TEST(Thickness, OfASphereIsItsDiameter) {
-  auto rows = test::ellipsoid(3000, 1);
-  for (Vec3& row : rows) row = normalized(row);
-  const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                {.sides = SidesFrom::normals, .threads = 2});
-  for (const auto mode : {ThicknessMode::wall, ThicknessMode::ball, ThicknessMode::scan}) {
-    const auto found = analysis.thickness({rows}, {.mode = mode});
-    ASSERT_EQ(found.values.size(), rows.size());
-    for (const double value : found.values) EXPECT_NEAR(value, 2, 1e-6);
-  }
-}
-
 TEST(Thickness, DoesNotDependOnTheThreads) {
   const auto rows = test::ellipsoid(3000, 1);
   std::vector<std::vector<double>> values;
@@ -102,18 +89,6 @@ TEST(Thickness, DoesNotDependOnTheThreads) {
   }
   EXPECT_EQ(values[0], values[2]);
   EXPECT_EQ(values[1], values[3]);
-}
-
-TEST(Thickness, RefusesWhatItCannotMeasure) {
-  const auto rows = test::ellipsoid(500, 1);
-  const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                {.sides = SidesFrom::normals});
-  EXPECT_THROW(analysis.thickness({}), InvalidInputError);
-  EXPECT_THROW(analysis.thickness({rows}, {.side = Side::both}), InvalidInputError);
-  const std::vector<uint8_t> few(3, 0);
-  EXPECT_THROW(analysis.thickness({rows, std::span<const uint8_t>(few)}), InvalidInputError);
-  const MedialAnalysis without({rows}, {.sides = SidesFrom::none});
-  EXPECT_THROW(without.thickness({rows}), InvalidInputError);
 }
 
 }  // namespace
