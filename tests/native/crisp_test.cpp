@@ -252,30 +252,6 @@ struct CrispBox {
   }
 };
 
-// Returns the two least distances from a place in the box to its six faces.
-std::array<double, 2> two_nearest(const Vec3& p) {
-  std::array<double, 6> away{p.x, 3 - p.x, p.y, 2 - p.y, p.z, 1 - p.z};
-  std::sort(away.begin(), away.end());
-  return {away[0], away[1]};
-}
-
-TEST(Crisp, EveryVertexOfABoxIsOnItsAxis) {
-  const Level level = CrispBox(2).level();
-  for (size_t v = 0; v < level.vertices.size(); ++v) {
-    const auto [first, second] = two_nearest(level.vertices[v]);
-    EXPECT_NEAR(first, second, 1e-14) << v;
-    EXPECT_NEAR(level.radius[v], first, 1e-14) << v;
-  }
-}
-
-TEST(Crisp, EveryCornerOfABoxIsReached) {
-  const Level level = CrispBox(2).level();
-  for (const Vec3& corner : box().vertices) {
-    EXPECT_TRUE(std::any_of(level.vertices.begin(), level.vertices.end(),
-                            [&](const Vec3& v) { return v == corner; }));
-  }
-}
-
 // A cone of height 2 over a circle of radius 0.7, with outward faces.
 test::Mesh cone() {
   constexpr int kSides = 72;

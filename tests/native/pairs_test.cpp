@@ -88,20 +88,6 @@ Level level_of(const test::Mesh& mesh, const SurfaceSamples& samples, bool crisp
   return hierarchy.extract(options);
 }
 
-double area_of(const Level& level) {
-  double area = 0;
-  for (size_t f = 0; f + 1 < level.face_offsets.size(); ++f) {
-    Vec3 sum;
-    const auto corner = [&](int32_t k) { return level.vertices[level.face_vertices[k]]; };
-    for (int32_t k = level.face_offsets[f] + 2; k < level.face_offsets[f + 1]; ++k) {
-      const Vec3 first = corner(level.face_offsets[f]);
-      sum = sum + cross(corner(k - 1) - first, corner(k) - first);
-    }
-    area += 0.5 * length(sum);
-  }
-  return area;
-}
-
 class OppositeWallsOfAWedge : public testing::TestWithParam<double> {};
 
 TEST_P(OppositeWallsOfAWedge, TheBallTouchesTheOtherSideOfAWedgeAtTheSameDistanceFromItsEdge) {
@@ -206,25 +192,6 @@ TEST(Pairs, AreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.points, four.points);
     EXPECT_EQ(one.partner, four.partner);
   }
-}
-
-TEST(Pairs, GiveTheWholeSheetOfAPlateHoweverThin) {
-  for (const double t : {0.01, 1e-3, 1e-4, 1e-5}) {
-    const test::Mesh mesh = plate(t);
-    const SurfaceSamples samples = paired(mesh, 2000);
-    EXPECT_EQ(level_of(mesh, samples, true).betti, (Betti{1, 0, 0})) << t;
-    const Level level = level_of(mesh, samples);
-    EXPECT_EQ(level.betti, (Betti{1, 0, 0})) << t;
-    EXPECT_TRUE(level.wires.empty()) << t;
-    EXPECT_GT(area_of(level), 0.99 * (1 - 2 * t) * (1 - 2 * t)) << t;
-    EXPECT_LT(area_of(level), 1.0 + 2 * t) << t;
-  }
-}
-
-TEST(Pairs, OfAHollowTorusGiveAClosedSheet) {
-  const test::Mesh mesh = hollow_torus(0.02);
-  const SurfaceSamples samples = paired(mesh, 8000, true);
-  EXPECT_EQ(level_of(mesh, samples, true).betti, (Betti{1, 2, 1}));
 }
 
 // The solid is two plates of 0.2, one 0.1 above the other.

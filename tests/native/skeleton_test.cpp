@@ -27,34 +27,6 @@ Hierarchy hierarchy_of(const test::Mesh& mesh, int threads) {
       .hierarchy({});
 }
 
-TEST(Hierarchy, OfABlockIsDownToOnePoint) {
-  const auto points = test::ellipsoid(5000, 3);
-  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
-  EXPECT_EQ(h.betti(), (Betti{1, 0, 0}));
-  const Level level = h.extract({.sheet = 1, .limb = 1});
-  EXPECT_EQ(level.vertices.size(), 1u);
-  EXPECT_EQ(level.points.size(), 1u);
-  EXPECT_NEAR(level.radius[0], 0.4, 0.05);
-}
-
-// A facet burns after all facets that were at the edge through which the fire comes, so that edge
-// and every other one of its ring is at least as thick.
-TEST(Hierarchy, NoFacetHasALargerErosionThanAnEdgeOfIt) {
-  const auto points = test::ellipsoid(2000, 3);
-  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
-  const auto& parts = h.parts();
-  int burned = 0;
-  for (int32_t f = 0; f < parts.complex.facets(); ++f) {
-    const float erosion = parts.values.facet[f].erosion;
-    burned += erosion > 0 && erosion < HUGE_VALF;
-    for (const Corner& c : parts.complex.ring(f)) {
-      EXPECT_GE(parts.values.of_edge(parts.partner[c.edge]).erosion, erosion) << f;
-      EXPECT_GE(parts.values.vertex[c.vertex].erosion, erosion) << f;
-    }
-  }
-  EXPECT_GT(burned, 100);
-}
-
 // The samples of a flat block on a lattice are cospherical in eights, so many cells shrink.
 TEST(Hierarchy, EdgesOfAShrunkComplexGoFromTheLowerVertexToTheHigher) {
   const int size = 12, height = 3;

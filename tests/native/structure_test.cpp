@@ -39,10 +39,9 @@ struct Squares {
     generators.push_back({row, row + 1});
   }
 
-  Structure structure(int threads = 1) const {
+  Structure structure() const {
     const std::vector<double> radii(vertices.size(), radius), apart(patches.size(), spacing);
-    return structure_of({vertices, radii, offsets, corners, generators, {}, patches, apart},
-                        threads);
+    return structure_of({vertices, radii, offsets, corners, generators, {}, patches, apart}, 1);
   }
 };
 
@@ -119,15 +118,6 @@ TEST(Structure, TurnsTheFacetsOfASheetAlike) {
   s.add(kX, kY, kX, 1, 0);  // the other way round, and so are its patches
   s.add({}, kX, -kY, 3, 3);
   EXPECT_EQ(s.structure().turned, (Column<uint8_t>{0, 1, 1}));
-}
-
-TEST(Structure, DoesNotDependOnTheThreads) {
-  const Squares s = book(5000);
-  const Structure one = s.structure(1), many = s.structure(8);
-  EXPECT_EQ(one.part, many.part);
-  EXPECT_EQ(one.curve, many.curve);
-  EXPECT_EQ(one.part_area, many.part_area);
-  EXPECT_EQ(one.curve_length, many.curve_length);
 }
 
 TEST(Structure, RefusesArraysThatDoNotFit) {
