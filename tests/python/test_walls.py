@@ -190,23 +190,6 @@ def test_the_report_has_the_share(tmp_path, capsys):
     assert any("missing or torn" in text for text in report["warnings"])
 
 
-def test_distances_are_those_of_a_box(medial):
-    mesh = meshes.box((3, 3, 3), (1.0, 0.7, 0.4))
-    points = np.array([[0.1, 0.2, 0.4], [1.0, 0.1, 0.05], [0.3, -0.7, 0.1], [0.1, 0.2, 0.4]])
-    normals = np.array([[0, 0, 1.0], [1, 0, 0], [0, -1, 0], [0, 0, 0]])
-    found = medial.wall_distances(points, normals, np.full(4, 5.0), *mesh)
-    np.testing.assert_allclose(found, [0.8, 2.0, 1.4, np.inf])
-    short = medial.wall_distances(points, normals, np.full(4, 1.0), *mesh, threads=1)
-    np.testing.assert_allclose(short, [0.8, np.inf, np.inf, np.inf])
-
-
-def test_other_parts_of_the_solid_are_passed_through(medial):
-    box = meshes.box((2, 2, 2), (1.0, 1.0, 1.0))
-    both = meshes.join(box, (0.5 * box[0] + (0, 0, -1.2), box[1]))
-    point, normal = np.array([[0.1, 0.2, 1.0]]), np.array([[0, 0, 1.0]])
-    assert medial.wall_distances(point, normal, np.array([9.0]), *both) == pytest.approx(2.7)
-
-
 @pytest.mark.parametrize(
     "change, word",
     [
