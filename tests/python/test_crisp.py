@@ -207,17 +207,6 @@ def test_crossing_pairs_are_those_of_all_pairs(seed):
     assert len(found) > 40 and found == brute_crossings(points, triangles)
 
 
-def test_a_crossing_pair_of_an_axis_is_noticed():
-    whole = axis_of_box()
-    far = np.array([[0.0, 0.0, -0.1], [0.1, 0.0, 0.1], [0.0, 0.1, 0.1]])
-    more = replace(
-        whole,
-        vertices=np.concatenate((whole.vertices, far)),
-        triangles=np.concatenate((whole.triangles, [[12, 13, 14]])),
-    )
-    assert len(crossing_triangles.crossing_pairs(more.vertices, more.triangles)) >= 1
-
-
 # --- the bars of the product
 
 FLAT = ("box", "wedge", "blunt", "fan")
