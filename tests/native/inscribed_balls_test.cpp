@@ -107,22 +107,6 @@ TEST(InscribedBalls, AreThoseOfAPlainLoop) {
   }
 }
 
-TEST(InscribedBalls, DependNeitherOnThreadsNorOnTheUnit) {
-  test::Mesh mesh = test::torus(48, 24);
-  Places places = random_places(mesh, 500);
-  const auto one = measured(mesh, places, true, 1), two = measured(mesh, places, true, 2);
-  EXPECT_EQ(one.diameter, two.diameter);
-  EXPECT_EQ(one.wall, two.wall);
-  const double unit = std::ldexp(1, 20);
-  for (Vec3& p : mesh.vertices) p = unit * p;
-  for (Vec3& p : places.points) p = unit * p;
-  for (double& s : places.spacing) s *= unit;
-  const auto large = measured(mesh, places, true, 2);
-  for (size_t i = 0; i < places.points.size(); ++i) {
-    EXPECT_EQ(large.diameter[i], unit * one.diameter[i]);
-  }
-}
-
 // A torus of radii 1 and 0.4 whose rings are turned against each other by a share of a step, so
 // that triangles slant.
 test::Mesh tube(double turned) {

@@ -78,18 +78,5 @@ TEST(Patches, ShareCornersAndAreNumberedInOrder) {
   EXPECT_EQ(patches(triangles, std::vector<uint8_t>(5, 0), 10), std::vector<int32_t>(5, -1));
 }
 
-TEST(Thickness, DoesNotDependOnTheThreads) {
-  const auto rows = test::ellipsoid(3000, 1);
-  std::vector<std::vector<double>> values;
-  for (const int threads : {1, 3}) {
-    const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                  {.sides = SidesFrom::normals, .threads = threads});
-    values.push_back(analysis.thickness({rows}).values);
-    values.push_back(analysis.thickness({}, {.mode = ThicknessMode::scan}).values);
-  }
-  EXPECT_EQ(values[0], values[2]);
-  EXPECT_EQ(values[1], values[3]);
-}
-
 }  // namespace
 }  // namespace medial

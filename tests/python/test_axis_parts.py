@@ -105,33 +105,6 @@ def test_turned_facets_agree_along_their_sheets(boxed):
     assert np.array_equal(back.generators, boxed.generators)
 
 
-def test_the_numbers_of_threads_make_no_difference(medial, boxed):
-    generator = np.random.default_rng(0)
-    patches = generator.integers(0, 4, (4200, 2), dtype=np.int32)
-    patches[::3, 1] = -1
-    arguments = {
-        name: getattr(boxed, name)
-        for name in ("vertices", "radius", "face_offsets", "face_vertices", "generators")
-    }
-    arguments |= {"wires": boxed.edges, "patches": np.sort(patches)[:, ::-1].copy()}
-    arguments |= {"spacing": np.full(len(patches), 0.05)}
-    one, many = (medial.structure(**arguments, threads=threads) for threads in (1, 8))
-    for name in dir(one):
-        if not name.startswith("_"):
-            assert np.array_equal(getattr(one, name), getattr(many, name)), name
-
-
-def test_units_make_no_difference(boxed):
-    points, triangles = plates.box()
-    large = axis_of((points * 2.0**20, triangles)).structure
-    for name in FIELDS:
-        scale = 2.0**40 if name == "part_area" else 2.0**20
-        wanted = getattr(boxed.structure, name)
-        if name.endswith(("_area", "_radius", "_length")):
-            wanted = wanted * scale
-        assert np.array_equal(getattr(large, name), wanted), name
-
-
 def test_patches_pass_reflex_edges_and_end_at_convex_ones(medial):
     points, triangles = plates.bracket()
     of_triangles, of_vertices = medial.surface_patches(points, triangles)

@@ -530,20 +530,8 @@ def test_arguments_are_checked(medial):
     found = analysis.thickness(vertices)
     assert len(found.values) == len(found.measured) == len(analysis.samples)
     assert found.measured.dtype == bool and not found.values.flags.writeable
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        analysis.thickness(vertices, progress=progress)
-
-
-def test_length_of_normals_and_threads_do_not_matter(medial):
-    vertices, triangles = ellipsoid(subdivisions=4)
-    normals = vertices / np.square((1.0, 0.7, 0.5))
-    values = set()
-    for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0)):
-        analysis = medial.MedialAnalysis(vertices, triangles, threads=threads)
-        values.add(analysis.thickness(factor * normals).values.tobytes())
-    assert len(values) == 1
+    # The length of normals does not matter.
+    assert found.values.tobytes() == analysis.thickness(1024.0 * vertices).values.tobytes()
 
 
 def test_nearest_and_patches(medial):

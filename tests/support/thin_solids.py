@@ -35,14 +35,15 @@ def turned(mesh: Mesh, seed: int = 1) -> Mesh:
     return resampled.turned(mesh, inputs.rotation(seed))
 
 
-def union(*boxes: Box) -> Mesh:
+def union(*boxes: Box, without: tuple[Box, ...] = ()) -> Mesh:
     """The boundary of a union of boxes, cut along all of their planes so that faces meet edge to edge."""
-    planes = [np.unique([end[axis] for box in boxes for end in box]) for axis in range(3)]
+    every = (*boxes, *without)
+    planes = [np.unique([end[axis] for box in every for end in box]) for axis in range(3)]
     middles = [(p[:-1] + p[1:]) / 2 for p in planes]
     grid = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1)
     filled = np.zeros(grid.shape[:3], bool)
-    for low, high in boxes:
-        filled |= ((grid > low) & (grid < high)).all(axis=-1)
+    for at, (low, high) in enumerate(every):
+        filled[((grid > low) & (grid < high)).all(axis=-1)] = at < len(boxes)
     padded = np.pad(filled, 1)
     shape = [len(p) for p in planes]
     quads = []
