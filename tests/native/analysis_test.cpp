@@ -9,17 +9,6 @@
 namespace medial {
 namespace {
 
-TEST(MedialAnalysis, CancelsFromAnotherThread) {
-  const auto points = test::ellipsoid(200000, 5);
-  Progress progress;
-  Thread watcher([&] {
-    while (progress.fraction() < 0.1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    progress.cancel();
-  });
-  EXPECT_THROW(MedialAnalysis({points}, {.threads = 2}, &progress), Cancelled);
-  EXPECT_LT(progress.fraction(), 1);
-}
-
 TEST(MedialAnalysis, CancelsInEveryStage) {
   const auto mesh = test::torus(150, 80);
   for (const double share : {0.0, 0.3, 0.55, 0.6, 0.7, 0.75, 0.85, 0.93}) {

@@ -70,13 +70,5 @@ TEST(NeededRadii, AreThoseOfAllPlacesOfATriangle) {
   for (size_t b = 0; b < balls.size(); ++b) EXPECT_NEAR(radii[b], least[b], kPiece) << b;
 }
 
-TEST(Patches, ShareCornersAndAreNumberedInOrder) {
-  const std::vector<Triangle> triangles{{5, 6, 7}, {0, 1, 2}, {2, 3, 4}, {7, 8, 9}, {4, 5, 1}};
-  const std::vector<uint8_t> all(5, 1), some{1, 1, 1, 1, 0};
-  EXPECT_EQ(patches(triangles, all, 10), (std::vector<int32_t>{0, 0, 0, 0, 0}));
-  EXPECT_EQ(patches(triangles, some, 10), (std::vector<int32_t>{0, 1, 1, 0, -1}));
-  EXPECT_EQ(patches(triangles, std::vector<uint8_t>(5, 0), 10), std::vector<int32_t>(5, -1));
-}
-
 }  // namespace
 }  // namespace medial

@@ -105,6 +105,34 @@ def test_turned_facets_agree_along_their_sheets(boxed):
     assert np.array_equal(back.generators, boxed.generators)
 
 
+def squares(spacing):
+    """Nine squares in a row between two patches, the middle one between the first and a third."""
+    corners = 2 * np.arange(9)[:, None] + (0, 2, 3, 1)
+    patches = np.tile(np.array([(0, -1), (1, -1)], np.int32), (9, 1))
+    patches[9, 0] = 2
+    return {
+        "vertices": np.array([(x, y, 0.0) for x in range(10) for y in (0, 1)]),
+        "radius": np.full(20, 10.0),
+        "face_offsets": np.arange(0, 37, 4, dtype=np.int32),
+        "face_vertices": corners.astype(np.int32).ravel(),
+        "generators": np.arange(18, dtype=np.int32).reshape(-1, 2),
+        "wires": np.empty((0, 2), np.int32),
+        "patches": patches,
+        "spacing": np.full(18, spacing),
+    }
+
+
+def test_crumbs_go_to_their_neighbours(medial):
+    """One square is less than two squared spacings of 0.75."""
+    assert medial.structure(**squares(0.5)).part_area.tolist() == [4.0, 4.0, 1.0]
+    found = medial.structure(**squares(0.75))
+    assert found.part_area.tolist() == [9.0] and not (found.seam == 1).any()
+    rows = squares(0.5)["generators"]
+    for wrong in (rows[:-1], np.where(rows == 1, 99, rows)):
+        with pytest.raises(medial.InvalidInputError):
+            medial.structure(**squares(0.5) | {"generators": wrong})
+
+
 def test_patches_pass_reflex_edges_and_end_at_convex_ones(medial):
     points, triangles = plates.bracket()
     of_triangles, of_vertices = medial.surface_patches(points, triangles)

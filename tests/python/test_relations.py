@@ -13,6 +13,7 @@ import pytest
 from medial_axis.core.axis import structure as of_axis
 from support import meshes
 from support.shapes import SHAPES
+from support.thick_meshes import block
 
 TORUS = meshes.torus(1.0, 0.4, 48, 24)
 BALL = meshes.icosphere(3)
@@ -111,6 +112,12 @@ def samples_of_edges(medial, scale, **options):
     return named(found, ("points", "kind"))
 
 
+def samples_in_pairs(medial, scale, **options):
+    vertices, triangles = block(1.0, 1.0, 1e-3)
+    found = medial.sample_surface(scale * vertices, triangles, count=3000, pairs=True, **options)
+    return named(found, ("points", "partner"))
+
+
 def closing(medial, scale, **options):
     vertices, triangles = scale * BOWL[0], BOWL[1]
     found = medial.sample_surface(vertices, triangles, count=2000)
@@ -207,6 +214,7 @@ STAGES = {
     "tight cocone": Stage(tight_cocone, {"triangles": 0, "flat": 0, "good": 0, "on_surface": 0}),
     "samples": Stage(samples, {"points": 1, "kind": 0, "triangle": 0}),
     "samples of edges": Stage(samples_of_edges, {"points": 1, "kind": 0}),
+    "samples in pairs": Stage(samples_in_pairs, {"points": 1, "partner": 0}),
     "closing samples": Stage(closing, {"points": 1, "radius": 1}),
     "buried": Stage(buried, {"found": 0}),
     "distances": Stage(distances, {"distance": 1}),

@@ -543,6 +543,7 @@ def test_nearest_and_patches(medial):
     triangles = np.array([(0, 1, 2), (5, 6, 7), (2, 3, 4)], np.int32)
     flags = np.ones(3, bool)
     assert medial.patches(triangles, flags, 8).tolist() == [0, 1, 0]
+    assert medial.patches(triangles, flags & [False, True, True], 8).tolist() == [-1, 0, 1]
     for bad in ((triangles, flags[:2], 8), (triangles, flags, 7)):
         with pytest.raises(medial.InvalidInputError):
             medial.patches(*bad)
