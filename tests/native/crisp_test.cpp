@@ -235,23 +235,6 @@ TEST(ConvexCreases, OfAFewEdgesAreAFragmentWhereSamplesAreNotMuchCloser) {
   }
 }
 
-struct CrispBox {
-  SurfaceSamples samples;
-  std::optional<Hierarchy> hierarchy;
-
-  explicit CrispBox(int threads) {
-    const test::Mesh mesh = box();
-    samples = sample_surface(mesh.vertices, mesh.triangles, {.count = 1500, .smooth = true});
-    const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
-                                  {.threads = threads});
-    const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
-    hierarchy.emplace(analysis.hierarchy({}, Side::inner, 1, nullptr, &faces));
-  }
-  Level level() const {
-    return hierarchy->extract({.spacings = 1, .round_limbs = true, .crisp = true});
-  }
-};
-
 // An ellipsoid of revolution with the radii 1 and 0.5, whose axis is a disc of radius 0.75.
 test::Mesh oblate() {
   constexpr int kRings = 48, kSides = 96;
@@ -299,58 +282,6 @@ TEST(Crisp, PlacesOfSmoothSheetsAreSearchedOnce) {
   EXPECT_GT(touching, 150);
   // Rims beyond their end are searched on the way, too: 1.15 searches for each place.
   EXPECT_LE(faces.searches() - before, touching + touching / 10);  // 1.07 searches a place
-}
-
-TEST(Crisp, CellsAndExactPlacesAreThoseOfTheHierarchy) {
-  const CrispBox made(2);
-  const Level crisp = made.level(),
-              plain = made.hierarchy->extract({.spacings = 1, .round_limbs = true});
-  EXPECT_EQ(crisp.face_vertices, plain.face_vertices);
-  EXPECT_EQ(crisp.exact, plain.vertices);
-  EXPECT_EQ(crisp.betti, plain.betti);
-}
-
-TEST(Crisp, IsCancelledFromAnotherThread) {
-  const test::Mesh mesh = test::torus(60, 30);
-  const auto samples =
-      sample_surface(mesh.vertices, mesh.triangles, {.count = 8000, .smooth = true});
-  const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
-                                {.threads = 2});
-  const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
-  Progress progress;
-  std::atomic<bool> ended{false};
-  const Thread watcher([&] {
-    while (progress.stage() != std::string("Crisp places") && !ended) std::this_thread::yield();
-    progress.cancel();
-  });
-  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, &progress, &faces), Cancelled);
-  ended = true;
-}
-
-// Crisp places take most of the time, and so have most of the bar.
-TEST(Crisp, HasMostOfTheBar) {
-  const CrispBox made(1);
-  const test::Mesh mesh = box();
-  const MedialAnalysis analysis(
-      {made.samples.points, mesh.triangles, made.samples.normals, mesh.vertices});
-  const FacesInput faces{mesh.vertices, mesh.triangles, made.samples.triangle};
-  Progress progress;
-  std::atomic<bool> ended{false};
-  double most = 0;  // of the bar before the places
-  {
-    const Thread watcher([&] {
-      while (!ended) {
-        const double fraction = progress.fraction();
-        const std::string stage = progress.stage();
-        if (stage == "Crisp places") return;
-        most = std::max(most, fraction);
-      }
-    });
-    analysis.hierarchy({}, Side::inner, 1, &progress, &faces);
-    ended = true;
-  }
-  EXPECT_LT(most, 0.4);
-  EXPECT_EQ(progress.fraction(), 1);
 }
 
 }  // namespace

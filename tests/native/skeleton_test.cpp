@@ -377,21 +377,5 @@ TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
   EXPECT_GT(moved, 50);
 }
 
-TEST(Hierarchy, CancelsWhileCurvesAreFitted) {
-  const Hierarchy h = hierarchy_of(test::torus(200, 80), 2);
-  Progress progress;
-  std::atomic<bool> ended{false};
-  const Thread watcher([&] {
-    while (progress.fraction() < 0.7 && !ended) std::this_thread::yield();
-    progress.cancel();
-  });
-  try {
-    h.extract({.sheet = 1, .relaxed = true}, &progress);
-  } catch (const Cancelled&) {
-    EXPECT_LT(progress.fraction(), 1);
-  }
-  ended = true;
-}
-
 }  // namespace
 }  // namespace medial

@@ -58,21 +58,6 @@ TEST(FaceSet, LinksChainToADiscOnlyWhenEachIsPassedOnce) {
   EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {3, 4}, {4, 5}, {5, 3}}));  // an eight
 }
 
-TEST(TightCocone, CancelsInEveryStage) {
-  const auto points = test::ellipsoid(20000, 4);
-  for (const double share : {0.0, 0.6, 0.905, 0.935, 0.955, 0.975}) {
-    Progress progress;
-    Thread watcher([&] {
-      while (progress.fraction() < share) std::this_thread::yield();
-      progress.cancel();
-    });
-    try {
-      watertight_surface(points, {}, 2, &progress);
-    } catch (const Cancelled&) {
-    }
-  }
-}
-
 TEST(TightCocone, AnEmptySolidIsAnErrorOnlyWhereItIsAskedFor) {
   const std::vector<Vec3> corners{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
   const MedialAnalysis analysis({corners}, {}, nullptr);
