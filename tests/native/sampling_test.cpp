@@ -8,12 +8,6 @@
 namespace medial {
 namespace {
 
-// Two squares of side 2 that meet at a right angle in the edge from 0 to 1.
-test::Mesh folded() {
-  return {{{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}, {0, 2, 2}},
-          {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}}};
-}
-
 SurfaceSamples sampled(const test::Mesh& mesh, SamplingOptions options, int threads = 2) {
   return sample_surface(mesh.vertices, mesh.triangles, options, threads);
 }
@@ -25,7 +19,7 @@ Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 
 
 TEST(Creases, AFoldIsOneSharpChainAndFourBoundaryChains) {
   TriangleMesh mesh;
-  const Creases creases = creases_of(folded(), mesh);
+  const Creases creases = creases_of(test::folded(), mesh);
   EXPECT_EQ(creases.edges[creases.find(1, 0)].crease, Crease::sharp);
   EXPECT_EQ(creases.edges[creases.find(0, 3)].crease, Crease::none);
   EXPECT_EQ(creases.find(2, 5), -1);
@@ -47,7 +41,7 @@ TEST(Creases, EveryCreaseIsInOneChainWhateverTheTurn) {
 }
 
 TEST(Creases, UnusedAndEqualRowsAreNoVertices) {
-  auto mesh = folded();
+  auto mesh = test::folded();
   mesh.vertices.push_back({9, 9, 9});
   mesh.vertices.push_back(mesh.vertices[3]);
   mesh.triangles[0][2] = 7;
@@ -88,7 +82,7 @@ TEST(PnTriangles, KeepTheirCornersAndAgreeAlongEveryEdge) {
 
 TEST(Pieces, CoverTheirTriangles) {
   TriangleMesh mesh;
-  const Creases creases = creases_of(folded(), mesh);
+  const Creases creases = creases_of(test::folded(), mesh);
   const CurvedSurface surface(mesh, creases, false, {1, nullptr});
   for (const int cuts : {0, 1, 3}) {
     double area = 0;
@@ -162,7 +156,7 @@ TEST(SizingField, ReachesSparseSitesOfAnOppositeWall) {
 
 TEST(PoissonDisks, KeepTheirDistanceFromEachOtherAndFromFixedOnes) {
   TriangleMesh mesh;
-  const Creases creases = creases_of(folded(), mesh);
+  const Creases creases = creases_of(test::folded(), mesh);
   const CurvedSurface surface(mesh, creases, false, {2, nullptr});
   const auto pieces = cut_into_pieces(surface, 0, {0.1}, {2, nullptr});
   const std::vector<Disk> fixed{{{0, 1, 0}, 0.5, {}}, {{1, 1, 0}, 0.1, {0, 0, -1}}};

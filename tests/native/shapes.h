@@ -53,6 +53,12 @@ inline Mesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
+// Two squares of side 2 that meet at a right angle in the edge from 0 to 1, along y.
+inline Mesh folded() {
+  return {{{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}, {0, 2, 2}},
+          {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}}};
+}
+
 inline Mesh joined(Mesh a, const Mesh& b) {
   const auto first = static_cast<int32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());

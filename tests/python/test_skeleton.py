@@ -448,7 +448,7 @@ def two_rings_and_a_y():
     return of_tubes(tubes.y_of_tubes(), 1500), skeleton_of(Shape(*meshes.torus()))
 
 
-def test_json_has_everything(two_rings_and_a_y, tmp_path):
+def test_json_has_everything_and_is_read_back(two_rings_and_a_y, tmp_path):
     for found in two_rings_and_a_y:
         path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
         read = json.loads(path.read_text())
@@ -457,6 +457,9 @@ def test_json_has_everything(two_rings_and_a_y, tmp_path):
         assert read["edges"] == found.skeleton.edges.tolist()
         faces = [face for part in read["parts"] for face in part["faces"]]
         assert sorted(faces) == list(range(len(found.parts.faces)))
+        back = load_skeleton(path)
+        for name in ("points", "radius", "branch_offsets", "branch_points", "nodes"):
+            np.testing.assert_array_equal(getattr(back, name), getattr(found.skeleton, name))
 
 
 def test_swc_is_a_tree_of_all_points(two_rings_and_a_y, tmp_path):
@@ -498,11 +501,6 @@ def test_command_line_takes_ends(tmp_path, capsys):
         assert f"Expected X,Y,Z, three finite numbers, found '{wrong}'" in capsys.readouterr().err
 
 
-def test_json_is_read_back(two_rings_and_a_y, tmp_path):
-    for found in two_rings_and_a_y:
-        back = load_skeleton(export_skeleton(found.skeleton, found.parts, tmp_path / "a.json"))
-        for name in ("points", "radius", "branch_offsets", "branch_points", "nodes"):
-            np.testing.assert_array_equal(getattr(back, name), getattr(found.skeleton, name))
 
 
 @pytest.mark.parametrize(
