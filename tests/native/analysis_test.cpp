@@ -49,32 +49,5 @@ TEST(MedialAnalysis, ReportsWhatIsWrong) {
   EXPECT_NE(message(four, bad).find("found 9 in triangle 0"), std::string::npos);
 }
 
-TEST(MedialAnalysis, BoundingSphereDoesNotHideThatSamplesAreFlat) {
-  auto flat = test::random_points(50, 7);
-  for (Vec3& p : flat) p.z = 0.5;
-  EXPECT_THROW(MedialAnalysis({flat}, {.bounding_sphere = true}, nullptr), DegenerateInputError);
-}
-
-TEST(MedialAnalysis, AFlippedTriangleOpensItsThreeEdges) {
-  auto mesh = test::torus(24, 12);
-  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
-  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {}, nullptr);
-  EXPECT_FALSE(analysis.closed());
-  EXPECT_EQ(analysis.boundary_edges(), 3);
-}
-
-TEST(MedialAnalysis, BoundingSphereBoundsEveryFacet) {
-  const auto mesh = test::torus(60, 30);
-  const MedialAnalysis bare({mesh.vertices, mesh.triangles}, {}, nullptr);
-  const MedialAnalysis bounded({mesh.vertices, mesh.triangles}, {.bounding_sphere = true}, nullptr);
-  EXPECT_GT(bare.extract({.side = Side::outer}).unbounded, 0);
-  const MedialMesh outer = bounded.extract({.side = Side::outer});
-  EXPECT_EQ(outer.unbounded, 0);
-  EXPECT_GT(outer.generators.size(), 100u);
-  for (const Edge& pq : outer.generators) {
-    EXPECT_TRUE(pq[0] >= 0 && pq[1] < static_cast<int32_t>(mesh.vertices.size()));
-  }
-}
-
 }  // namespace
 }  // namespace medial

@@ -242,17 +242,6 @@ TEST(MirroredRows, AWalkAlongASideGoesStraightOn) {
   }
 }
 
-// A dihedral angle of 90 degrees is sharp at 80 and not at 100, and a fold of two boxes' worth of
-// corners ends its chains.
-TEST(Creases, AreSharpFromTheirAngleOn) {
-  for (const auto& [angle, sharp] : {std::pair{1.4, 1}, std::pair{1.75, 0}}) {
-    const auto mesh = make_mesh(test::folded().vertices, test::folded().triangles, {1, nullptr});
-    const Creases creases = find_creases(mesh, angle, {}, false, {1, nullptr});
-    EXPECT_EQ(creases.edges[creases.find(0, 1)].crease == Crease::sharp, sharp == 1);
-    EXPECT_EQ(creases.edges[creases.find(0, 2)].crease, Crease::boundary);
-  }
-}
-
 // A fold that goes straight on past a vertex where a third crease begins has a corner there.
 TEST(Creases, WhereThreeMeetIsACorner) {
   const test::Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {1, 1, 0}, {-0.1, 0, 1}, {-0.9, 2, 0.9}},

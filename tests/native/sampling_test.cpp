@@ -40,17 +40,6 @@ TEST(Creases, EveryCreaseIsInOneChainWhateverTheTurn) {
   }
 }
 
-TEST(Creases, UnusedAndEqualRowsAreNoVertices) {
-  auto mesh = test::folded();
-  mesh.vertices.push_back({9, 9, 9});
-  mesh.vertices.push_back(mesh.vertices[3]);
-  mesh.triangles[0][2] = 7;
-  TriangleMesh welded;
-  creases_of(mesh, welded);
-  EXPECT_EQ(welded.points.size(), 6u);
-  EXPECT_EQ(welded.triangles[0], (Triangle{0, 2, 3}));
-}
-
 TEST(PnTriangles, KeepTheirCornersAndAgreeAlongEveryEdge) {
   const auto torus = test::torus(16, 8);
   TriangleMesh mesh;

@@ -501,8 +501,6 @@ def test_command_line_takes_ends(tmp_path, capsys):
         assert f"Expected X,Y,Z, three finite numbers, found '{wrong}'" in capsys.readouterr().err
 
 
-
-
 @pytest.mark.parametrize(
     "text",
     [
