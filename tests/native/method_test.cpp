@@ -65,14 +65,6 @@ std::vector<Vec3> gaussian(int count, uint32_t seed) {
   return points;
 }
 
-std::vector<Vec3> ball(int count, uint32_t seed) {
-  std::vector<Vec3> points;
-  for (const Vec3& p : test::random_points(4 * count, seed)) {
-    if (squared_length(p) < 1 && points.size() < static_cast<size_t>(count)) points.push_back(p);
-  }
-  return points;
-}
-
 std::vector<Vec3> on_torus(int count, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(0, 2 * kPi);
@@ -352,13 +344,8 @@ void expect_same_in_general_position(const std::function<std::vector<Vec3>(int, 
 }
 
 TEST(Method, OnGaussianPoints) { expect_same_in_general_position(gaussian, 24, 60); }
-TEST(Method, OnPointsOfABall) { expect_same_in_general_position(ball, 28, 50); }
 TEST(Method, OnEllipsoids) { expect_same_in_general_position(test::ellipsoid, 30, 50); }
 TEST(Method, OnTori) { expect_same_in_general_position(on_torus, 32, 50); }
-TEST(Method, OnSixtyPoints) {
-  expect_same_in_general_position(on_torus, 60, 2);
-  expect_same_in_general_position(gaussian, 60, 2);
-}
 
 // ---- Degenerate inputs -----------------------------------------------------------------------
 //
@@ -534,26 +521,6 @@ TEST(Method, AVoronoiVertexInTheTangentPlaneCountsAsAbove) {
   expect_same_stages(cloud.rows(), oracle);
   for (const Edge& link : oracle.umbrella(4)) {
     EXPECT_TRUE(link[0] >= 9 || link[1] >= 9) << "a triangle of the hull";
-  }
-}
-
-// Doubles do not tell on which side of a sphere the other points of a turned lattice lie; twice
-// their digits do.
-TEST(Method, SpheresOfATurnedLatticeAreEmpty) {
-  for (int seed = 1; seed <= 4; ++seed) {
-    const double c = std::cos(seed), s = std::sin(seed);
-    std::vector<Vec3> points;
-    for (const GridPoint& p : lattice(4)) {
-      const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
-      const double across = s * x + c * y, z = static_cast<double>(p.z);
-      points.push_back({c * x - s * y, c * across - s * z, s * across + c * z});
-    }
-    const Cloud cloud = rounded(points, 0x1p-50);
-    const std::vector<GridPoint>& p = cloud.points;
-    for (const Ids& i : library_cells(cloud.rows())) {
-      for (const GridPoint& q : p)
-        EXPECT_LE(test::in_sphere<test::Integer>(p[i[0]], p[i[1]], p[i[2]], p[i[3]], q), 0);
-    }
   }
 }
 
