@@ -15,6 +15,7 @@ from .crisp_solids import Solid
 from .crossing_triangles import crossing_pairs
 from .folds import Rings
 from .levels import betti_of_mesh
+from .measure import following
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -62,12 +63,6 @@ class Output:
             (self.triangles, self.wires[:, [0, 1, 1]], np.column_stack((lone, lone, lone)))
         )
         return self.vertices[rows]
-
-    def following(self) -> Ints:
-        """(c,) the corner after each one in its polygon."""
-        after = np.arange(1, len(self.face_vertices) + 1)
-        after[self.face_offsets[1:] - 1] = self.face_offsets[:-1]
-        return after
 
     def rings(self) -> Rings:
         return Rings(self.vertices, self.face_offsets, self.face_vertices, self.across)
@@ -145,7 +140,7 @@ def gap(solid: Solid, cells: Array, spacing: float) -> Spread | None:
 def rim_edges(output: Output) -> Ints:
     """(r, 2) edges of exactly one polygon."""
     corners = output.face_vertices
-    pairs = np.sort(np.column_stack((corners, corners[output.following()])), axis=1)
+    pairs = np.sort(np.column_stack((corners, corners[following(output)])), axis=1)
     edges, uses = np.unique(pairs, axis=0, return_counts=True)
     return edges[uses == 1]
 

@@ -5,6 +5,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from .measure import following
+
 # Thresholds of sixteen levels, by every value and by several at once.
 SIXTEEN = [
     *({"sheet": s, "limb": c} for s in (0.0, 0.003, 0.01, 0.03) for c in (0.0, 0.04)),
@@ -102,10 +104,8 @@ def parts(count, pairs, there):
 
 def betti_of_mesh(level):
     """(components, Euler characteristic) of a drawn level: vertices, edges of polygons and wires, polygons."""
-    corners, offsets = level.face_vertices, level.face_offsets
-    following = np.roll(corners, -1)
-    following[offsets[1:] - 1] = corners[offsets[:-1]]
-    pairs = np.concatenate((np.column_stack((corners, following)), level.wires))
+    corners = level.face_vertices
+    pairs = np.concatenate((np.column_stack((corners, corners[following(level)])), level.wires))
     edges = np.unique(np.sort(pairs, axis=1), axis=0)
     everything = np.ones(len(level.vertices), bool)
     pieces = parts(len(level.vertices), edges, everything) if len(level.vertices) else 0
