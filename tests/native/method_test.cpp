@@ -47,11 +47,12 @@ struct Cloud {
 };
 
 // Rounds to the grid; equal points are there once.
-Cloud rounded(std::span<const Vec3> points, double step = kGrid) {
-  Cloud cloud{{}, step};
+Cloud rounded(std::span<const Vec3> points) {
+  Cloud cloud{{}, kGrid};
   std::set<GridPoint> known;
   for (const Vec3& p : points) {
-    const GridPoint g{std::llround(p.x / step), std::llround(p.y / step), std::llround(p.z / step)};
+    const GridPoint g{std::llround(p.x / kGrid), std::llround(p.y / kGrid),
+                      std::llround(p.z / kGrid)};
     if (known.insert(g).second) cloud.points.push_back(g);
   }
   return cloud;

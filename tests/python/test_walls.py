@@ -18,6 +18,7 @@ from medial_axis.core.samples.next_amount import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings, Side
 from support import meshes, thin_solids, topology
+from support.measure import following
 from support.meshes import shape_of
 from support.plates import prism
 from support.poses import random_turn
@@ -41,9 +42,7 @@ def plate(thickness, turned=False):
 def sheet_area(axis, turned=False):
     """The area of the facets, projected along the plate's normal."""
     where = axis.vertices @ TURN if turned else axis.vertices
-    corners, ends = where[axis.face_vertices], axis.face_offsets[1:]
-    after = np.arange(1, len(corners) + 1)
-    after[ends - 1] = axis.face_offsets[:-1]
+    corners, after = where[axis.face_vertices], following(axis)
     doubled = corners[:, 0] * corners[after, 1] - corners[:, 1] * corners[after, 0]
     facet = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
     return np.abs(np.bincount(facet, doubled, axis.facets)).sum() / 2

@@ -102,14 +102,16 @@ def parts(count, pairs, there):
     return len(np.unique(labels[there]))
 
 
-def betti_of_mesh(level):
+def betti_of_mesh(level, wires=None):
     """(components, Euler characteristic) of a drawn level: vertices, edges of polygons and wires, polygons."""
     corners = level.face_vertices
-    pairs = np.concatenate((np.column_stack((corners, corners[following(level)])), level.wires))
-    edges = np.unique(np.sort(pairs, axis=1), axis=0)
+    rims = np.column_stack((corners, corners[following(level)]))
+    edges = np.concatenate((rims, level.wires if wires is None else wires))
+    edges = np.unique(np.sort(edges, axis=1), axis=0)
+    assert (edges[:, 0] != edges[:, 1]).all()
     everything = np.ones(len(level.vertices), bool)
     pieces = parts(len(level.vertices), edges, everything) if len(level.vertices) else 0
-    return pieces, len(level.vertices) - len(edges) + len(level.generators)
+    return pieces, len(level.vertices) - len(edges) + len(level.face_offsets) - 1
 
 
 def facet_pieces(faces):
