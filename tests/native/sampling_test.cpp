@@ -8,10 +8,6 @@
 namespace medial {
 namespace {
 
-SurfaceSamples sampled(const test::Mesh& mesh, SamplingOptions options, int threads = 2) {
-  return sample_surface(mesh.vertices, mesh.triangles, options, threads);
-}
-
 Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 0.5) {
   welded = make_mesh(mesh.vertices, mesh.triangles, {2, nullptr});
   return find_creases(welded, angle, {}, false, {2, nullptr});

@@ -186,7 +186,7 @@ def test_points_without_faces_have_even_triangles_at_the_samples():
 
 @pytest.mark.parametrize("name", ["ellipsoid", "box", "cone"])
 def test_bytes_do_not_depend_on_the_threads(medial, name):
-    """Of an even mesh, and of crisp places of a Voronoi diagram."""
+    """An even mesh and the crisp places of a Voronoi diagram are the same to the byte."""
     computation = made(name).computation
     samples, axes = computation.chosen.samples, []
     solid = samples.solid
