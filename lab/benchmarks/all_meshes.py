@@ -23,6 +23,7 @@ from support import (  # noqa: E402
     resampled,
     spikes,
 )
+from support.levels import facet_pieces  # noqa: E402
 
 HEADER = ["mesh", "triangles", "open edges", "sampling", "samples", "facets", "pieces", "outside"]
 HEADER += ["spike", "s", "what was said"]
@@ -56,7 +57,7 @@ def row(name: str, sampling: str, worst: bool) -> list[str]:
         result.chosen.sampling.value.lower(),
         str(result.points),
         str(axis.facets),
-        str(spikes.components(axis)),
+        str(facet_pieces(axis)),
         str(outside.sum()) if closed else "",
         f"{length.max():.2f}" if axis.facets else "",
         f"{seconds:.1f}",

@@ -2,7 +2,6 @@
 """Files made inside Blender: by our operator, and of the result by Blender's own exporters, read back."""
 
 import os
-from pathlib import Path
 
 import bpy
 import numpy as np
@@ -10,6 +9,7 @@ import pytest
 from installed import addon
 from measure import attribute, entries_of, positions, reports, world_positions
 from scene import compute, export, in_edit_mode, link, refuse_export, select, torus
+from support.readers import read_ma
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 BEFORE_4 = bpy.app.version < (4, 0, 0)
@@ -31,15 +31,6 @@ def corner_counts(mesh):
 
 def polygons(mesh):
     return [np.array(polygon.vertices) for polygon in mesh.polygons]
-
-
-def read_ma(path):
-    """(v, 4), (e, 2), (f, 3) of a plain .ma file."""
-    first, *lines = Path(path).read_text(encoding="ascii").splitlines()
-    rows = {letter: [line.split()[1:] for line in lines if line[0] == letter] for letter in "vef"}
-    counts = [len(rows[letter]) for letter in "vef"]
-    assert [int(word) for word in first.split()] == counts and len(lines) == sum(counts)
-    return np.array(rows["v"], float), np.array(rows["e"], int), np.array(rows["f"], int)
 
 
 def assert_same_points(found, expected, rounding=4):
@@ -77,6 +68,9 @@ def test_ma_holds_the_result_in_the_world(result, tmp_path):
     assert np.array_equal(vertices[:, 3], attribute(result.data, "ma_radius").astype(np.float64))
     assert len(faces) == (corner_counts(result.data) - 2).sum()
     assert len(np.unique(edges, axis=0)) == len(edges) and (edges[:, 0] < edges[:, 1]).all()
+    result.location.x += 10
+    export(tmp_path / "axis.ma")
+    assert_same_points(read_ma(tmp_path / "axis.ma")[0][:, :3], world_positions(result), rounding=1)
 
 
 def test_npz_holds_all_attributes(result, tmp_path):
@@ -115,12 +109,8 @@ def test_source_exports_its_result(result, tmp_path):
         select(thing)
         export(tmp_path / f"{name}.off")
     assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
-
-
-def test_scripts_may_move_the_result_just_before(result, tmp_path):
-    result.location.x += 10
-    export(tmp_path / "axis.ma")
-    assert_same_points(read_ma(tmp_path / "axis.ma")[0][:, :3], world_positions(result), rounding=1)
+    export(tmp_path / "axis", file_format="OFF")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["axis.off", "result.off", "source.off"]
 
 
 def test_result_keeps_its_scale(result, tmp_path):
@@ -156,15 +146,12 @@ def test_edited_result_is_exported_as_it_is(result, tmp_path):
     assert np.array_equal(arrays["rho"], attribute(result.data, "ma_rho").astype(np.float64))
 
 
-def test_missing_attribute_is_named(result, tmp_path):
+def test_unknown_extension_and_missing_attribute_are_named(result, tmp_path):
+    words = r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv, found 'axis\.stl'"
+    refuse_export(words, tmp_path / "axis.stl")
     result.data.attributes.remove(result.data.attributes["ma_radius"])
     words = "'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again"
     refuse_export(words, tmp_path / "axis.ma")
-
-
-def test_unknown_extension_raises(result, tmp_path):
-    words = r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv, found 'axis\.stl'"
-    refuse_export(words, tmp_path / "axis.stl")
 
 
 def test_nothing_to_export_says_so(tmp_path):
@@ -172,11 +159,6 @@ def test_nothing_to_export_says_so(tmp_path):
     refuse_export("Select a medial axis", tmp_path / "axis.ma")
     select()
     refuse_export("Select a medial axis", tmp_path / "axis.ma")
-
-
-def test_name_without_extension_takes_the_format(result, tmp_path):
-    export(tmp_path / "axis", file_format="OFF")
-    assert [path.name for path in tmp_path.iterdir()] == ["axis.off"]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="names are bytes where files are POSIX's")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import analyses, attribute, loose_edges, positions
-from scene import added, compute, export, link, press, select, suzanne
+from scene import compute, export, link, press, select, suzanne
 from test_export_blender import READERS, imported
 
 
@@ -30,13 +30,6 @@ def clean(**settings):
     """The axis of a pair."""
     usual = {"form": "CLEAN", "sampling": "SURFACE", "samples": 6_000, "smooth": False}
     return compute(pair(), **usual | settings)
-
-
-def test_clean_is_the_default():
-    added("cube")
-    result = press("medial_axis")
-    assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
-    assert result["ma_topology"] == "1 piece, no loop, no cavity, as the solid"
 
 
 def test_attributes_of_faces_and_of_loose_edges():

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from installed import MODULE, addon, in_wine
+from installed import addon, in_wine
 from measure import contents, entries_of, positions, reports, triangles_of
 from scene import ellipsoid, link
 from support.clouds import on_ellipsoid
@@ -176,14 +176,6 @@ def test_coordinates_that_blender_cannot_hold(folder):
     assert read(folder / "far.xyz", global_scale=1e-3) == {"FINISHED"}
 
 
-def test_colours_are_left_with_a_warning(folder, capfd):
-    columns = np.column_stack([POINTS, 255 * np.abs(NORMALS)])
-    np.savetxt(folder / "coloured.xyz", columns, fmt="%.9g")
-    assert normals_of(imported(folder / "coloured.xyz")) is None
-    ((kind, text), _) = reports(capfd)
-    assert (kind, text[:36]) == ("Warning", "'coloured': Left out 3 of 6 columns:")
-
-
 def test_faces_that_blender_cannot_hold(folder, capfd):
     """They would crash it, or its tools, later."""
     faces = "3 0 0 1\n3 2 1 0\n4 0 1 2 0\n2 0 1\n"
@@ -206,22 +198,6 @@ def test_menu_entries():
         "import_mesh.points_xyz": "Points (.xyz/.xyzn)",
         "import_mesh.points_off": "Object File Format (.off)",
     }
-
-
-def test_disabling_removes_operators_and_menu_entries():
-    def present():
-        entries = bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
-        names = [function.__module__ for function in entries]
-        kinds = [hasattr(bpy.types, f"IMPORT_MESH_OT_points_{kind}") for kind in ("xyz", "off")]
-        return [f"{MODULE}.ui.axis.import_points" in names, *kinds]
-
-    assert present() == [True] * 3
-    bpy.ops.preferences.addon_disable(module=MODULE)
-    try:
-        assert present() == [False] * 3
-    finally:
-        bpy.ops.preferences.addon_enable(module=MODULE)
-    assert present() == [True] * 3
 
 
 def test_dropped_files_are_not_asked_for_again():

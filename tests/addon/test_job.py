@@ -4,7 +4,6 @@
 import threading
 import time
 from functools import partial
-from importlib.machinery import EXTENSION_SUFFIXES
 
 import bpy
 import numpy as np
@@ -162,19 +161,3 @@ def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
     refuse(sentence, "object.medial_axis")
     monkeypatch.setattr(native, "LIB", tmp_path / "nowhere")
     assert "found none" in native.problem()
-
-
-def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
-    native = addon("core.machine.native")
-    for name, value in {
-        "_module": None,
-        "_failure": "",
-        "NAME": "_absent",
-        "LIB": tmp_path,
-    }.items():
-        monkeypatch.setattr(native, name, value)
-    (tmp_path / f"_absent{EXTENSION_SUFFIXES[0]}").write_bytes(b"not a library")
-    words = r"Expected .* that loads, but the system says"
-    with pytest.raises(addon("core.errors").NativeModuleError, match=words):
-        native.load()
-    assert "that loads" in native.problem(), "the panel must not try again at every draw"

@@ -114,16 +114,6 @@ def test_clouds_are_thinned(tight, capfd, operator):
     assert [text for kind, text in reports(capfd) if kind == "Warning" and kept in text]
 
 
-def test_surfaces_are_thinned(tight):
-    source = ellipsoid(segments=5)
-    assert len(source.data.vertices) > 1500
-    refuse("fits into the free memory")
-    preferences().above_limit = "THIN"
-    result = compute()
-    assert result["ma_points"] <= 1500 and result["ma_sampling"] == "SURFACE"
-    assert "samples of the surface were taken" in result["ma_warnings"]
-
-
 def test_reports_of_the_sampling_have_the_limit(tight):
     ellipsoid(segments=5)
     refuse("fits into the free memory", "medial_axis_sampling_report", sampling="SURFACE")

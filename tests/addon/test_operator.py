@@ -92,12 +92,6 @@ def test_subdivided_suzanne():
     np.testing.assert_allclose(radius[some], nearest, rtol=1e-4, atol=1e-5)
 
 
-def test_result_is_the_compiled_modules_answer():
-    source = ellipsoid()
-    assert compute()["ma_side"] == "INNER"
-    assert_holds(result_of(source), answer(source))
-
-
 SETTINGS = [
     {"theta": 0.9}, {"rho": 3.0}, {"side": "OUTER"}, {"side": "BOTH"}, {"rule": "BOTH"},
     {"criteria": "ANGLE", "theta": 1.2}, {"criteria": "RATIO"}, {"limit_set": True, "rho": 1.5},

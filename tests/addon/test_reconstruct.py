@@ -71,25 +71,6 @@ def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
     assert texts[-1].startswith("Done: ") and texts[-1].endswith(" s")
 
 
-def test_what_is_wrong_is_counted_and_said(capfd):
-    points, _ = on_ellipsoid(5000)
-    points += np.random.default_rng(3).normal(scale=0.01, size=points.shape)
-    scan(points=points)
-    surface = reconstruct()
-    off, edges = surface["ma_off_surface"], surface["ma_nonmanifold_edges"]
-    assert off == 5000 - len(surface.data.vertices) > 0
-    mesh = bmesh.new()
-    mesh.from_mesh(surface.data)
-    assert sum(len(edge.link_faces) > 2 for edge in mesh.edges) == edges > 0
-    assert all(len(edge.link_faces) % 2 == 0 for edge in mesh.edges)
-    assert sum(not v.is_manifold for v in mesh.verts) == surface["ma_nonmanifold_vertices"]
-    mesh.free()
-    said = [text for kind, text in reports(capfd) if kind == "Warning"]
-    assert f"'Scan': {off:,} of 5,000 points are not on the surface" in said[0]
-    assert f"touches itself at {edges:,} edges" in said[1]
-    assert surface["ma_warnings"].splitlines() == [text.removeprefix("'Scan': ") for text in said]
-
-
 def test_running_again_updates_the_same_object():
     source = scan()
     surface, meshes = reconstruct(), len(bpy.data.meshes)

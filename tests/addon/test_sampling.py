@@ -223,15 +223,6 @@ def test_progress_is_one_bar_over_all_passes():
 # --- messy meshes
 
 
-def test_scale_is_applied_before_sampling():
-    source = added("cube")
-    source.scale = (3, 1, 1)
-    result = click(sampling="SURFACE", samples=4_000)
-    where = positions(result.data)
-    assert np.abs(where[:, 0]).max() > 2.5 and attribute(result.data, "ma_radius").max() < 1.02
-    assert [tuple(row) for row in result.matrix_world] == [tuple(row) for row in np.eye(4)]
-
-
 def test_reports_of_a_click(capfd):
     source = added("cube")
     result = click(sampling="SURFACE", samples=1_000)

@@ -54,14 +54,6 @@ def test_automatic_says_which_and_why(make, sides, sentence):
     np.testing.assert_array_equal(generators(result.data), expected.generators)
 
 
-@pytest.mark.parametrize("sides", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"])
-def test_chosen_source_is_used_although_all_are_there(sides):
-    result = compute(with_normals(ellipsoid()), sides=sides)
-    assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
-    samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
-    assert samples.analysis.sides_from.name == sides
-
-
 def test_unknown_and_wrong_attributes_are_no_normals():
     attributes = scan().data.attributes
     attributes.new("normal", "FLOAT", "POINT")

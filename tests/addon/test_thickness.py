@@ -44,14 +44,6 @@ def grid_box():
     return thing
 
 
-def bevelled_cube(segments):
-    """Its side is 2; its flat faces go up to 0.6 from their middle."""
-    thing = added("cube")
-    modifier = thing.modifiers.new("Bevel", "BEVEL")
-    modifier.width, modifier.segments = 0.4, segments
-    return thing
-
-
 def thin_faces(thing):
     return attribute(thing.data, "ma_thin").astype(bool)
 
@@ -67,17 +59,6 @@ def test_dense_source_carries_its_thickness_itself():
     scale = addon("bridge.thickness.thickness_object").scale_on(source)
     assert (scale.low, scale.limit) == (0.0, pytest.approx(0.6, rel=1e-5)) and scale.high > 0.89
     assert sum(source["ma_thickness_histogram"]) == pytest.approx(1.0, abs=0.01)
-
-
-@pytest.mark.parametrize("segments", [2, 3, 4])
-def test_faces_of_a_bevelled_cube_are_flat(segments):
-    """They bulged by up to 10 % of half the side, and so much thicker was the cube."""
-    carrier = measure(bevelled_cube(segments))
-    places = np.abs(positions(carrier.data))
-    flat = np.sort(places, axis=1)[:, 1] < 0.59
-    assert np.count_nonzero(flat) > 1_000
-    assert places[flat].max(axis=1) == pytest.approx(1.0, abs=0.002)
-    assert attribute(carrier.data, "ma_thickness")[flat] == pytest.approx(2.0, rel=0.005)
 
 
 def test_coarse_source_has_a_copy_and_its_own_attributes():

@@ -207,24 +207,8 @@ def figures(package, result):
         "Delaunay s": f"{delaunay:.2f}",
         "filter s": f"{filter_seconds:.2f}",
         "facets": f"{len(result.data.polygons):,}",
-        "components": component_count(result.data),
+        "components": result["ma_pieces"],
     }
-
-
-def component_count(mesh):
-    """Number of connected parts."""
-    parent = list(range(len(mesh.vertices)))
-
-    def root(vertex):
-        while parent[vertex] != vertex:
-            parent[vertex] = vertex = parent[parent[vertex]]
-        return vertex
-
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    for a, b in ends.reshape(-1, 2).tolist():
-        parent[root(a)] = root(b)
-    return sum(root(vertex) == vertex for vertex in range(len(parent)))
 
 
 def save(folder, name):

@@ -9,55 +9,6 @@
 namespace medial {
 namespace {
 
-MedialMesh axis(std::span<const Vec3> points, int threads) {
-  return MedialAnalysis({points}, {.threads = threads}, nullptr).extract({});
-}
-
-TEST(MedialAnalysis, GivesTheSameBytesForEveryThreadCount) {
-  const auto mesh = test::torus(120, 60);
-  const auto extracted = [&](int threads) {
-    return MedialAnalysis({mesh.vertices, mesh.triangles}, {.threads = threads}, nullptr)
-        .extract({.side = Side::inner});
-  };
-  const MedialMesh one = extracted(1), four = extracted(4);
-  EXPECT_GT(one.generators.size(), 1000u);
-  EXPECT_EQ(one.vertices, four.vertices);
-  EXPECT_EQ(one.radius, four.radius);
-  EXPECT_EQ(one.face_offsets, four.face_offsets);
-  EXPECT_EQ(one.face_vertices, four.face_vertices);
-  EXPECT_EQ(one.theta, four.theta);
-  EXPECT_EQ(one.rho, four.rho);
-  EXPECT_EQ(one.generators, four.generators);
-}
-
-TEST(MedialAnalysis, GridCubeHasExactlyTheFacetsOfItsTwelveSheets) {
-  const auto points = test::grid_cube(8);
-  const MedialMesh mesh = axis(points, 2);
-  EXPECT_EQ(mesh.generators.size(), 192u);
-  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    // On the axis of a cube the nearest two face planes are equally near.
-    std::array<double, 6> heights;
-    for (int k = 0; k < 3; ++k) {
-      const double x = (&mesh.vertices[v].x)[k];
-      heights[2 * k] = x;
-      heights[2 * k + 1] = 8 - x;
-    }
-    std::sort(heights.begin(), heights.end());
-    EXPECT_NEAR(heights[0], heights[1], 1e-12);
-  }
-}
-
-TEST(MedialAnalysis, CancelsFromAnotherThread) {
-  const auto points = test::ellipsoid(200000, 5);
-  Progress progress;
-  Thread watcher([&] {
-    while (progress.fraction() < 0.1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    progress.cancel();
-  });
-  EXPECT_THROW(MedialAnalysis({points}, {.threads = 2}, &progress), Cancelled);
-  EXPECT_LT(progress.fraction(), 1);
-}
-
 TEST(MedialAnalysis, CancelsInEveryStage) {
   const auto mesh = test::torus(150, 80);
   for (const double share : {0.0, 0.3, 0.55, 0.6, 0.7, 0.75, 0.85, 0.93}) {
@@ -96,33 +47,6 @@ TEST(MedialAnalysis, ReportsWhatIsWrong) {
       std::string::npos);
   const std::vector<Triangle> bad{{0, 1, 9}};
   EXPECT_NE(message(four, bad).find("found 9 in triangle 0"), std::string::npos);
-}
-
-TEST(MedialAnalysis, BoundingSphereDoesNotHideThatSamplesAreFlat) {
-  auto flat = test::random_points(50, 7);
-  for (Vec3& p : flat) p.z = 0.5;
-  EXPECT_THROW(MedialAnalysis({flat}, {.bounding_sphere = true}, nullptr), DegenerateInputError);
-}
-
-TEST(MedialAnalysis, AFlippedTriangleOpensItsThreeEdges) {
-  auto mesh = test::torus(24, 12);
-  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
-  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {}, nullptr);
-  EXPECT_FALSE(analysis.closed());
-  EXPECT_EQ(analysis.boundary_edges(), 3);
-}
-
-TEST(MedialAnalysis, BoundingSphereBoundsEveryFacet) {
-  const auto mesh = test::torus(60, 30);
-  const MedialAnalysis bare({mesh.vertices, mesh.triangles}, {}, nullptr);
-  const MedialAnalysis bounded({mesh.vertices, mesh.triangles}, {.bounding_sphere = true}, nullptr);
-  EXPECT_GT(bare.extract({.side = Side::outer}).unbounded, 0);
-  const MedialMesh outer = bounded.extract({.side = Side::outer});
-  EXPECT_EQ(outer.unbounded, 0);
-  EXPECT_GT(outer.generators.size(), 100u);
-  for (const Edge& pq : outer.generators) {
-    EXPECT_TRUE(pq[0] >= 0 && pq[1] < static_cast<int32_t>(mesh.vertices.size()));
-  }
 }
 
 }  // namespace

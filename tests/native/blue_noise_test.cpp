@@ -135,15 +135,9 @@ SurfaceSamples samples_of(const test::Mesh& mesh, double spacing, int rows, doub
   return sample_surface(mesh.vertices, mesh.triangles, options, 2);
 }
 
-// Two squares of side 2 that meet at a right angle in the y axis.
-test::Mesh folded() {
-  return {{{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}, {0, 2, 2}},
-          {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}}};
-}
-
 TEST(MirroredRows, LieAtTheSamePlacesOnBothSidesOfASharpEdge) {
   const double spacing = 0.08;
-  const auto samples = samples_of(folded(), spacing, 2);
+  const auto samples = samples_of(test::folded(), spacing, 2);
   for (const double row : {0.75, 1.6}) {
     std::set<long> left, right;  // along the edge, in millionths
     for (const Vec3& p : samples.points) {
@@ -166,7 +160,7 @@ TEST(MirroredRows, LieAtTheSamePlacesOnBothSidesOfASharpEdge) {
 // Rows, edges and discs between them keep the distance of discs; seen from one side of the edge.
 TEST(MirroredRows, KeepTheirDistance) {
   for (const double spacing : {0.08, 0.093, 0.11}) {
-    const auto samples = samples_of(folded(), spacing, 3);
+    const auto samples = samples_of(test::folded(), spacing, 3);
     double nearest = HUGE_VAL;
     for (size_t i = 0; i < samples.points.size(); ++i) {
       for (size_t j = 0; j < i; ++j) {
@@ -181,7 +175,7 @@ TEST(MirroredRows, KeepTheirDistance) {
 }
 
 TEST(MirroredRows, TheEdgeItselfIsSampledAtEvenSteps) {
-  const auto samples = samples_of(folded(), 0.13, 0);
+  const auto samples = samples_of(test::folded(), 0.13, 0);
   std::vector<double> along;
   for (size_t i = 0; i < samples.points.size(); ++i) {
     const bool on_edge = samples.points[i].x == 0 && samples.points[i].z == 0;
@@ -245,17 +239,6 @@ TEST(MirroredRows, AWalkAlongASideGoesStraightOn) {
     const CurvedSurface surface(mesh, creases, false, {1, nullptr});
     const Vec3 goal{1, distance_walked, 0};
     EXPECT_LT(distance(surface.point(found->triangle, found->at), goal), 1e-12);
-  }
-}
-
-// A dihedral angle of 90 degrees is sharp at 80 and not at 100, and a fold of two boxes' worth of
-// corners ends its chains.
-TEST(Creases, AreSharpFromTheirAngleOn) {
-  for (const auto& [angle, sharp] : {std::pair{1.4, 1}, std::pair{1.75, 0}}) {
-    const auto mesh = make_mesh(folded().vertices, folded().triangles, {1, nullptr});
-    const Creases creases = find_creases(mesh, angle, {}, false, {1, nullptr});
-    EXPECT_EQ(creases.edges[creases.find(0, 1)].crease == Crease::sharp, sharp == 1);
-    EXPECT_EQ(creases.edges[creases.find(0, 2)].crease, Crease::boundary);
   }
 }
 

@@ -476,15 +476,7 @@ TEST(TightCocone, PrunesMarksAndPeelsAsRestated) {
 
 // ---- The surface -----------------------------------------------------------------------------
 
-double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-  double sum = 0;
-  for (const auto& [i, j, k] : triangles) sum += dot(points[i], cross(points[j], points[k])) / 6;
-  return sum;
-}
-
 WatertightSurface surface_of(std::span<const Vec3> rows) { return watertight_surface(rows, {}, 2); }
-
-constexpr double kEllipsoid = 4.0 / 3 * std::numbers::pi * 0.75 * 0.4;
 
 // Every edge twice, once in each direction.
 void expect_watertight(const WatertightSurface& surface) {
@@ -519,20 +511,6 @@ TEST(TightCocone, CountsWhereItsSurfaceIsNoManifold) {
     all_edges += edges;
   }
   EXPECT_GT(all_edges, 20);
-}
-
-// Dense samples: all are good, all lie on the surface, and next to nothing is missing.
-TEST(TightCocone, TakesEverySampleOfASmoothSurface) {
-  for (uint32_t seed = 0; seed < 4; ++seed) {
-    const auto rows = test::ellipsoid(1500, seed);
-    const WatertightSurface surface = surface_of(rows);
-    expect_watertight(surface);
-    EXPECT_EQ(std::count(surface.flat.begin(), surface.flat.end(), 0), 0);
-    EXPECT_EQ(std::count(surface.good.begin(), surface.good.end(), 0), 0);
-    EXPECT_EQ(surface.triangles.size(), 2 * rows.size() - 4);
-    EXPECT_EQ(surface.left_outside, 0);
-    EXPECT_NEAR(volume(rows, surface.triangles) / kEllipsoid, 1, 0.012);
-  }
 }
 
 }  // namespace

@@ -235,61 +235,6 @@ TEST(ConvexCreases, OfAFewEdgesAreAFragmentWhereSamplesAreNotMuchCloser) {
   }
 }
 
-struct CrispBox {
-  SurfaceSamples samples;
-  std::optional<Hierarchy> hierarchy;
-
-  explicit CrispBox(int threads) {
-    const test::Mesh mesh = box();
-    samples = sample_surface(mesh.vertices, mesh.triangles, {.count = 1500, .smooth = true});
-    const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
-                                  {.threads = threads});
-    const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
-    hierarchy.emplace(analysis.hierarchy({}, Side::inner, 1, nullptr, &faces));
-  }
-  Level level() const {
-    return hierarchy->extract({.spacings = 1, .round_limbs = true, .crisp = true});
-  }
-};
-
-// Returns the two least distances from a place in the box to its six faces.
-std::array<double, 2> two_nearest(const Vec3& p) {
-  std::array<double, 6> away{p.x, 3 - p.x, p.y, 2 - p.y, p.z, 1 - p.z};
-  std::sort(away.begin(), away.end());
-  return {away[0], away[1]};
-}
-
-TEST(Crisp, EveryVertexOfABoxIsOnItsAxis) {
-  const Level level = CrispBox(2).level();
-  for (size_t v = 0; v < level.vertices.size(); ++v) {
-    const auto [first, second] = two_nearest(level.vertices[v]);
-    EXPECT_NEAR(first, second, 1e-14) << v;
-    EXPECT_NEAR(level.radius[v], first, 1e-14) << v;
-  }
-}
-
-TEST(Crisp, EveryCornerOfABoxIsReached) {
-  const Level level = CrispBox(2).level();
-  for (const Vec3& corner : box().vertices) {
-    EXPECT_TRUE(std::any_of(level.vertices.begin(), level.vertices.end(),
-                            [&](const Vec3& v) { return v == corner; }));
-  }
-}
-
-// A cone of height 2 over a circle of radius 0.7, with outward faces.
-test::Mesh cone() {
-  constexpr int kSides = 72;
-  test::Mesh mesh{{{0, 0, 2}, {0, 0, 0}}, {}};
-  for (int i = 0; i < kSides; ++i) {
-    const double turn = 2 * std::numbers::pi * i / kSides;
-    mesh.vertices.push_back({0.7 * std::cos(turn), 0.7 * std::sin(turn), 0});
-    const int32_t here = i + 2, next = (i + 1) % kSides + 2;
-    mesh.triangles.push_back({0, here, next});
-    mesh.triangles.push_back({1, next, here});
-  }
-  return mesh;
-}
-
 // An ellipsoid of revolution with the radii 1 and 0.5, whose axis is a disc of radius 0.75.
 test::Mesh oblate() {
   constexpr int kRings = 48, kSides = 96;
@@ -325,10 +270,6 @@ Hierarchy hierarchy_on_faces(const test::Mesh& mesh, int threads) {
 
 constexpr LevelOptions kCrisp{.spacings = 1, .round_limbs = true, .relaxed = true, .crisp = true};
 
-Level crisp_level(const test::Mesh& mesh, int threads) {
-  return hierarchy_on_faces(mesh, threads).extract(kCrisp);
-}
-
 // The ball between two smooth walls is found from its feet each time it moves; all faces are
 // searched once, at the end. A search takes ten times as long.
 TEST(Crisp, PlacesOfSmoothSheetsAreSearchedOnce) {
@@ -341,97 +282,6 @@ TEST(Crisp, PlacesOfSmoothSheetsAreSearchedOnce) {
   EXPECT_GT(touching, 150);
   // Rims beyond their end are searched on the way, too: 1.15 searches for each place.
   EXPECT_LE(faces.searches() - before, touching + touching / 10);  // 1.07 searches a place
-}
-
-TEST(Crisp, TheCurveOfAConeEndsInItsTip) {
-  const Level level = crisp_level(cone(), 2);
-  const auto tip = std::find(level.vertices.begin(), level.vertices.end(), Vec3{0, 0, 2});
-  ASSERT_NE(tip, level.vertices.end());
-  EXPECT_EQ(level.radius[tip - level.vertices.begin()], 0);
-  for (const Edge& wire : level.wires) {
-    for (const int32_t v : wire) {
-      const Vec3& p = level.vertices[v];
-      EXPECT_LT(std::sqrt(p.x * p.x + p.y * p.y), 1e-3) << v;
-    }
-  }
-}
-
-TEST(Crisp, PlacesAndTipsAreTheSameForEveryThreadCount) {
-  for (const test::Mesh& mesh : {cone(), oblate()}) {
-    const Level one = crisp_level(mesh, 1), three = crisp_level(mesh, 3);
-    EXPECT_EQ(one.vertices, three.vertices);
-    EXPECT_EQ(one.radius, three.radius);
-  }
-}
-
-TEST(Crisp, CellsAndExactPlacesAreThoseOfTheHierarchy) {
-  const CrispBox made(2);
-  const Level crisp = made.level(),
-              plain = made.hierarchy->extract({.spacings = 1, .round_limbs = true});
-  EXPECT_EQ(crisp.face_vertices, plain.face_vertices);
-  EXPECT_EQ(crisp.exact, plain.vertices);
-  EXPECT_EQ(crisp.betti, plain.betti);
-}
-
-TEST(Crisp, IsTheSameForEveryThreadCount) {
-  const Level one = CrispBox(1).level(), three = CrispBox(3).level();
-  EXPECT_EQ(one.vertices, three.vertices);
-  EXPECT_EQ(one.radius, three.radius);
-}
-
-TEST(Crisp, IsCancelledFromAnotherThread) {
-  const test::Mesh mesh = test::torus(60, 30);
-  const auto samples =
-      sample_surface(mesh.vertices, mesh.triangles, {.count = 8000, .smooth = true});
-  const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
-                                {.threads = 2});
-  const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
-  Progress progress;
-  std::atomic<bool> ended{false};
-  const Thread watcher([&] {
-    while (progress.stage() != std::string("Crisp places") && !ended) std::this_thread::yield();
-    progress.cancel();
-  });
-  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, &progress, &faces), Cancelled);
-  ended = true;
-}
-
-// Crisp places take most of the time, and so have most of the bar.
-TEST(Crisp, HasMostOfTheBar) {
-  const CrispBox made(1);
-  const test::Mesh mesh = box();
-  const MedialAnalysis analysis(
-      {made.samples.points, mesh.triangles, made.samples.normals, mesh.vertices});
-  const FacesInput faces{mesh.vertices, mesh.triangles, made.samples.triangle};
-  Progress progress;
-  std::atomic<bool> ended{false};
-  double most = 0;  // of the bar before the places
-  {
-    const Thread watcher([&] {
-      while (!ended) {
-        const double fraction = progress.fraction();
-        const std::string stage = progress.stage();
-        if (stage == "Crisp places") return;
-        most = std::max(most, fraction);
-      }
-    });
-    analysis.hierarchy({}, Side::inner, 1, &progress, &faces);
-    ended = true;
-  }
-  EXPECT_LT(most, 0.4);
-  EXPECT_EQ(progress.fraction(), 1);
-}
-
-TEST(Crisp, RefusesFacesThatAreNotOnePerPoint) {
-  const CrispBox made(1);
-  const test::Mesh mesh = box();
-  const MedialAnalysis analysis(
-      {made.samples.points, mesh.triangles, made.samples.normals, mesh.vertices});
-  const std::vector<int32_t> few(3, 0), wrong(made.samples.points.size(), 99);
-  const FacesInput missing{mesh.vertices, mesh.triangles, few},
-      unknown{mesh.vertices, mesh.triangles, wrong};
-  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, nullptr, &missing), InvalidInputError);
-  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, nullptr, &unknown), InvalidInputError);
 }
 
 }  // namespace

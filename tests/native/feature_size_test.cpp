@@ -68,22 +68,5 @@ TEST(FeatureSize, IsInfiniteWithoutAnAxis) {
   }
 }
 
-// A row of the torus mesh is a quad lattice with known circumradii: none of the umbrellas has a
-// larger one than half of the diagonal of its quads, nor all smaller than a third of it.
-TEST(Spacing, IsTheHoleRoundASample) {
-  const auto mesh = test::torus(120, 60);
-  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {}, nullptr);
-  double longest = 0, shortest = HUGE_VAL;
-  for (const auto& [edge, uses] : test::edge_uses(mesh.triangles)) {
-    const double size = distance(mesh.vertices[edge[0]], mesh.vertices[edge[1]]);
-    longest = std::max(longest, size);
-    shortest = std::min(shortest, size);
-  }
-  for (const double s : analysis.spacing()) {
-    EXPECT_LT(s, longest);
-    EXPECT_GT(s, shortest / 2);
-  }
-}
-
 }  // namespace
 }  // namespace medial

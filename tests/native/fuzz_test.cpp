@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 10,000 small inputs, most of them degenerate: no crash, no broken invariant.
+// 10,000 small inputs, most of them degenerate, for the sanitizers: no crash. What holds of the
+// output is tested by test_fuzz.py.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
-
-#include <set>
 
 #include "shapes.h"
 
@@ -42,39 +41,6 @@ std::vector<Vec3> some_points(std::mt19937& random) {
   return points;
 }
 
-void expect_sound(const MedialMesh& mesh, std::span<const Vec3> points, int input) {
-  ASSERT_EQ(mesh.face_offsets.size(), mesh.generators.size() + 1) << input;
-  for (size_t f = 0; f < mesh.generators.size(); ++f) {
-    const auto begin = mesh.face_vertices.begin() + mesh.face_offsets[f],
-               end = mesh.face_vertices.begin() + mesh.face_offsets[f + 1];
-    ASSERT_GE(end - begin, 3) << input;
-    ASSERT_EQ(std::set<int32_t>(begin, end).size(), static_cast<size_t>(end - begin)) << input;
-    ASSERT_EQ(std::min_element(begin, end), begin) << input;
-    const auto [p, q] = mesh.generators[f];
-    ASSERT_LT(p, q) << input;
-    for (auto v = begin; v != end; ++v) {
-      const double r = mesh.radius[*v];
-      // Both generators lie on the empty ball, up to the error that circumcentres may have.
-      const double scale = r + max_abs(points[p]);
-      ASSERT_NEAR(distance(mesh.vertices[*v], points[p]), r, 1e-6 * scale) << input;
-      ASSERT_NEAR(distance(mesh.vertices[*v], points[q]), r, 1e-6 * scale) << input;
-    }
-  }
-  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    ASSERT_TRUE(std::isfinite(mesh.radius[v]) && std::isfinite(max_abs(mesh.vertices[v]))) << input;
-    for (const Vec3& p : points) {
-      ASSERT_GE(distance(mesh.vertices[v], p), mesh.radius[v] * (1 - 1e-6) - 1e-9 * max_abs(p))
-          << input;
-    }
-  }
-}
-
-// Every edge in an even number of triangles.
-void expect_closed(const WatertightSurface& surface, int input) {
-  for (const auto& [edge, count] : test::edge_uses(surface.triangles))
-    ASSERT_EQ(count % 2, 0) << input;
-}
-
 // A sanitizer makes each input take many times as long.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kInputs = 2000;
@@ -94,14 +60,12 @@ TEST(Fuzz, SmallInputs) {
       const MedialAnalysis analysis({points, triangles},
                                     {.bounding_sphere = input % 7 == 0, .threads = 1 + input % 2},
                                     nullptr);
-      expect_sound(analysis.extract({.thresholds = {.theta = 0, .rho = 0}}), points, input);
-      expect_sound(analysis.extract({.limit_set = true}), points, input);
+      analysis.extract({.thresholds = {.theta = 0, .rho = 0}});
+      analysis.extract({.limit_set = true});
       analysis.edge_sides();
-      if (analysis.tight_cocone()) expect_closed(*analysis.tight_cocone(), input);
     } catch (const DegenerateInputError&) {
       ++degenerate;
     }
-    if (HasFatalFailure()) return;
   }
   EXPECT_GT(degenerate, 10);
   EXPECT_LT(degenerate, kInputs / 2);

@@ -47,11 +47,12 @@ struct Cloud {
 };
 
 // Rounds to the grid; equal points are there once.
-Cloud rounded(std::span<const Vec3> points, double step = kGrid) {
-  Cloud cloud{{}, step};
+Cloud rounded(std::span<const Vec3> points) {
+  Cloud cloud{{}, kGrid};
   std::set<GridPoint> known;
   for (const Vec3& p : points) {
-    const GridPoint g{std::llround(p.x / step), std::llround(p.y / step), std::llround(p.z / step)};
+    const GridPoint g{std::llround(p.x / kGrid), std::llround(p.y / kGrid),
+                      std::llround(p.z / kGrid)};
     if (known.insert(g).second) cloud.points.push_back(g);
   }
   return cloud;
@@ -62,14 +63,6 @@ std::vector<Vec3> gaussian(int count, uint32_t seed) {
   std::normal_distribution<double> normal(0, 0.2);
   std::vector<Vec3> points(count);
   for (Vec3& p : points) p = {normal(random), normal(random), normal(random)};
-  return points;
-}
-
-std::vector<Vec3> ball(int count, uint32_t seed) {
-  std::vector<Vec3> points;
-  for (const Vec3& p : test::random_points(4 * count, seed)) {
-    if (squared_length(p) < 1 && points.size() < static_cast<size_t>(count)) points.push_back(p);
-  }
   return points;
 }
 
@@ -352,13 +345,8 @@ void expect_same_in_general_position(const std::function<std::vector<Vec3>(int, 
 }
 
 TEST(Method, OnGaussianPoints) { expect_same_in_general_position(gaussian, 24, 60); }
-TEST(Method, OnPointsOfABall) { expect_same_in_general_position(ball, 28, 50); }
 TEST(Method, OnEllipsoids) { expect_same_in_general_position(test::ellipsoid, 30, 50); }
 TEST(Method, OnTori) { expect_same_in_general_position(on_torus, 32, 50); }
-TEST(Method, OnSixtyPoints) {
-  expect_same_in_general_position(on_torus, 60, 2);
-  expect_same_in_general_position(gaussian, 60, 2);
-}
 
 // ---- Degenerate inputs -----------------------------------------------------------------------
 //
@@ -537,26 +525,6 @@ TEST(Method, AVoronoiVertexInTheTangentPlaneCountsAsAbove) {
   }
 }
 
-// Doubles do not tell on which side of a sphere the other points of a turned lattice lie; twice
-// their digits do.
-TEST(Method, SpheresOfATurnedLatticeAreEmpty) {
-  for (int seed = 1; seed <= 4; ++seed) {
-    const double c = std::cos(seed), s = std::sin(seed);
-    std::vector<Vec3> points;
-    for (const GridPoint& p : lattice(4)) {
-      const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
-      const double across = s * x + c * y, z = static_cast<double>(p.z);
-      points.push_back({c * x - s * y, c * across - s * z, s * across + c * z});
-    }
-    const Cloud cloud = rounded(points, 0x1p-50);
-    const std::vector<GridPoint>& p = cloud.points;
-    for (const Ids& i : library_cells(cloud.rows())) {
-      for (const GridPoint& q : p)
-        EXPECT_LE(test::in_sphere<test::Integer>(p[i[0]], p[i[1]], p[i[2]], p[i[3]], q), 0);
-    }
-  }
-}
-
 // Samples of a sphere are cospherical up to the rounding of their coordinates: all cells have one
 // Voronoi vertex, and no facet has an area.
 TEST(Method, SamplesOfASphereHaveNoFacets) {
@@ -638,21 +606,6 @@ TEST(Method, FacetsOnALineAreLeftOut) {
       if (i > 1) area = area + cross(at(i - 1) - at(0), at(i) - at(0));
     }
     EXPECT_GT(length(area), 1e-9 * longest * longest);
-  }
-}
-
-TEST(Method, RepeatedRowsAndTheirOrderChangeNothing) {
-  for (uint32_t seed = 0; seed < 20; ++seed) {
-    const Cloud cloud = rounded(gaussian(24, 1000 + seed));
-    const auto rows = cloud.rows();
-    auto more = rows;
-    for (size_t i = 0; i < 10; ++i) more.push_back(rows[(7 * i + seed) % rows.size()]);
-    const MedialAnalysis once = analysis_of(rows), again = analysis_of(more);
-    EXPECT_EQ(again.duplicates(), 10);
-    EXPECT_EQ(once.edge_rows(), again.edge_rows());
-    EXPECT_EQ(once.theta(Rule::either), again.theta(Rule::either));
-    EXPECT_EQ(once.rho(Rule::both), again.rho(Rule::both));
-    EXPECT_EQ(once.extract({}).vertices, again.extract({}).vertices);
   }
 }
 
@@ -759,26 +712,14 @@ Oracle oracle_of(const Cloud& cloud) {
   return {cloud.points, cloud.step, library_cells(cloud.rows())};
 }
 
-void expect_same_sides_of_surface(test::Mesh mesh, SidesFrom from = SidesFrom::automatic) {
+void expect_same_sides_of_surface(test::Mesh mesh) {
   const Cloud cloud = rounded(mesh.vertices);
   ASSERT_EQ(cloud.points.size(), mesh.vertices.size());
   mesh.vertices = cloud.rows();
-  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {.sides = from, .threads = 2},
-                                nullptr);
+  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {.threads = 2}, nullptr);
   ASSERT_EQ(analysis.sides_from(), SidesFrom::surface);
   const Oracle oracle = oracle_of(cloud);
   expect_same_sides(analysis, oracle, inside_surface(oracle, mesh));
-}
-
-TEST(MethodSides, ByAClosedSurface) {
-  for (uint32_t seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_same_sides_of_surface(rough_star(2, 0.02, seed));
-    expect_same_sides_of_surface(rough_star(2, 0.8, seed));
-    expect_same_sides_of_surface(rough_torus(14, 7, 0.02, seed));
-    expect_same_sides_of_surface(rough_torus(14, 7, 0.3, seed));
-    if (HasFailure()) return;
-  }
 }
 
 // These have so many cells that the winding number of one is derived from that of a neighbour.
@@ -786,27 +727,6 @@ TEST(MethodSides, ByALargerClosedSurface) {
   expect_same_sides_of_surface(rough_star(4, 0.03, 1));
   expect_same_sides_of_surface(rough_star(3, 0.7, 2));
   expect_same_sides_of_surface(rough_torus(36, 14, 0.15, 3));
-}
-
-TEST(MethodSides, ByAnOpenSurface) {
-  for (uint32_t seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    auto mesh = rough_star(2, 0.3, seed);
-    mesh.triangles.resize(mesh.triangles.size() * 3 / 4);
-    expect_same_sides_of_surface(mesh, SidesFrom::surface);
-  }
-}
-
-// Two shells, one inside of the other: between them is inside, the cavity is not.
-TEST(MethodSides, ByNestedShells) {
-  auto mesh = rough_star(2, 0.05, 7);
-  const auto cavity = rough_star(2, 0.05, 8);
-  const auto first = static_cast<int32_t>(mesh.vertices.size());
-  for (const Vec3& v : cavity.vertices) mesh.vertices.push_back(0.5 * v);
-  for (const auto& [a, b, c] : cavity.triangles) {
-    mesh.triangles.push_back({first + a, first + c, first + b});
-  }
-  expect_same_sides_of_surface(mesh);
 }
 
 TEST(MethodSides, BySurfaceWithVerticesOfItsOwn) {

@@ -36,20 +36,6 @@ inline std::vector<Vec3> ellipsoid(int count, uint32_t seed) {
 // 0 in the middle of that ellipsoid, 1 on it.
 inline double height_in_ellipsoid(const Vec3& x) { return length({x.x, x.y / 0.75, x.z / 0.4}); }
 
-// The surface points of a cubic grid of `cells` cells per edge.
-inline std::vector<Vec3> grid_cube(int cells) {
-  std::vector<Vec3> points;
-  const auto rim = [&](int i) { return i == 0 || i == cells; };
-  for (int x = 0; x <= cells; ++x) {
-    for (int y = 0; y <= cells; ++y) {
-      for (int z = 0; z <= cells; ++z) {
-        if (rim(x) || rim(y) || rim(z)) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
-      }
-    }
-  }
-  return points;
-}
-
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
@@ -65,6 +51,12 @@ inline Mesh box(const Vec3& low, const Vec3& high) {
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
+}
+
+// Two squares of side 2 that meet at a right angle in the edge from 0 to 1, along y.
+inline Mesh folded() {
+  return {{{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}, {0, 2, 2}},
+          {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}}};
 }
 
 inline Mesh joined(Mesh a, const Mesh& b) {

@@ -27,48 +27,6 @@ Hierarchy hierarchy_of(const test::Mesh& mesh, int threads) {
       .hierarchy({});
 }
 
-TEST(Hierarchy, OfATorusHasOneTunnelAtEveryLevel) {
-  const Hierarchy h = hierarchy_of(test::torus(60, 30), 2);
-  const Betti torus{1, 1, 0};
-  EXPECT_EQ(h.betti(), torus);
-  for (const double sheet : {0.0, 0.01, 0.1, 1.0}) {
-    for (const double limb : {0.0, 0.04, 1.0}) {
-      EXPECT_EQ(h.extract({.sheet = sheet, .limb = limb}).betti, torus) << sheet << ' ' << limb;
-    }
-  }
-  const Level circle = h.extract({.sheet = 1, .limb = 1});
-  EXPECT_TRUE(circle.generators.empty());
-  EXPECT_EQ(circle.wires.size(), circle.vertices.size());
-}
-
-TEST(Hierarchy, OfABlockIsDownToOnePoint) {
-  const auto points = test::ellipsoid(5000, 3);
-  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
-  EXPECT_EQ(h.betti(), (Betti{1, 0, 0}));
-  const Level level = h.extract({.sheet = 1, .limb = 1});
-  EXPECT_EQ(level.vertices.size(), 1u);
-  EXPECT_EQ(level.points.size(), 1u);
-  EXPECT_NEAR(level.radius[0], 0.4, 0.05);
-}
-
-// A facet burns after all facets that were at the edge through which the fire comes, so that edge
-// and every other one of its ring is at least as thick.
-TEST(Hierarchy, NoFacetHasALargerErosionThanAnEdgeOfIt) {
-  const auto points = test::ellipsoid(2000, 3);
-  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
-  const auto& parts = h.parts();
-  int burned = 0;
-  for (int32_t f = 0; f < parts.complex.facets(); ++f) {
-    const float erosion = parts.values.facet[f].erosion;
-    burned += erosion > 0 && erosion < HUGE_VALF;
-    for (const Corner& c : parts.complex.ring(f)) {
-      EXPECT_GE(parts.values.of_edge(parts.partner[c.edge]).erosion, erosion) << f;
-      EXPECT_GE(parts.values.vertex[c.vertex].erosion, erosion) << f;
-    }
-  }
-  EXPECT_GT(burned, 100);
-}
-
 // The samples of a flat block on a lattice are cospherical in eights, so many cells shrink.
 TEST(Hierarchy, EdgesOfAShrunkComplexGoFromTheLowerVertexToTheHigher) {
   const int size = 12, height = 3;
@@ -92,23 +50,6 @@ TEST(Hierarchy, EdgesOfAShrunkComplexGoFromTheLowerVertexToTheHigher) {
           std::minmax(ring[i].vertex, ring[i + 1 < ring.size() ? i + 1 : 0].vertex);
       EXPECT_EQ(complex.ends[ring[i].edge], (Edge{low, high})) << f;
     }
-  }
-}
-
-TEST(Hierarchy, IsTheSameForEveryThreadCount) {
-  const test::Mesh mesh = test::torus(120, 60);
-  const Hierarchy one = hierarchy_of(mesh, 1), four = hierarchy_of(mesh, 4);
-  EXPECT_EQ(one.parts().partner, four.parts().partner);
-  EXPECT_EQ(one.parts().limb, four.parts().limb);
-  EXPECT_EQ(one.parts().outside, four.parts().outside);
-  for (const auto value : {&Thickness::sheet, &Thickness::spacings, &Thickness::erosion}) {
-    const auto of = [value](const Array<Thickness>& values) {
-      std::vector<float> result;
-      for (const Thickness& t : values) result.push_back(t.*value);
-      return result;
-    };
-    EXPECT_EQ(of(one.parts().values.facet), of(four.parts().values.facet));
-    EXPECT_EQ(of(one.parts().values.vertex), of(four.parts().values.vertex));
   }
 }
 
@@ -434,41 +375,6 @@ TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
     moved += level.vertices[v] != level.exact[v];
   }
   EXPECT_GT(moved, 50);
-}
-
-TEST(Hierarchy, RelaxedLevelsAreTheSameForEveryThreadCount) {
-  const auto points = test::ellipsoid(5000, 3);
-  for (const LevelOptions& options :
-       {LevelOptions{.relaxed = true},
-        LevelOptions{.sheet = 1, .round_limbs = true, .relaxed = true},
-        LevelOptions{.sheet = 1, .limb = 0, .relaxed = true}}) {
-    std::vector<Level> levels;
-    for (const int threads : {1, 4}) {
-      levels.push_back(
-          MedialAnalysis({points}, {.threads = threads}, nullptr).hierarchy({}).extract(options));
-    }
-    EXPECT_EQ(levels[0].vertices, levels[1].vertices);
-    EXPECT_EQ(levels[0].radius, levels[1].radius);
-    EXPECT_EQ(levels[0].wires, levels[1].wires);
-    EXPECT_EQ(levels[0].exact, levels[1].exact);
-    EXPECT_EQ(levels[0].betti, (Betti{1, 0, 0}));
-  }
-}
-
-TEST(Hierarchy, CancelsWhileCurvesAreFitted) {
-  const Hierarchy h = hierarchy_of(test::torus(200, 80), 2);
-  Progress progress;
-  std::atomic<bool> ended{false};
-  const Thread watcher([&] {
-    while (progress.fraction() < 0.7 && !ended) std::this_thread::yield();
-    progress.cancel();
-  });
-  try {
-    h.extract({.sheet = 1, .relaxed = true}, &progress);
-  } catch (const Cancelled&) {
-    EXPECT_LT(progress.fraction(), 1);
-  }
-  ended = true;
 }
 
 }  // namespace

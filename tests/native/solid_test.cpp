@@ -118,22 +118,6 @@ TEST(LevelSet, OfABentOpeningIsNoneOfItsCaps) {
   }
 }
 
-TEST(LevelSet, IsTheSameForEveryThreadCount) {
-  test::Mesh mesh = test::torus(24, 12);
-  mesh.triangles.resize(mesh.triangles.size() - 30);
-  const auto fans = rows_containing(std::span<const Triangle>(mesh.triangles),
-                                    static_cast<int32_t>(mesh.vertices.size()));
-  const auto boundary = boundary_edges(mesh.triangles, fans, {});
-  const OpenSurface open(mesh.vertices, mesh.triangles, boundary, nullptr);
-  const auto one = open.falls(0.05, {1}), three = open.falls(0.05, {3});
-  ASSERT_EQ(one.size(), three.size());
-  EXPECT_GT(one.size(), 50u);
-  for (size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].inside, three[i].inside);
-    EXPECT_EQ(one[i].share, three[i].share);
-  }
-}
-
 // A prism over a triangle with an angle of 35 degrees.
 test::Mesh wedge() {
   const double turn = 35 * std::numbers::pi / 180;

@@ -70,51 +70,5 @@ TEST(NeededRadii, AreThoseOfAllPlacesOfATriangle) {
   for (size_t b = 0; b < balls.size(); ++b) EXPECT_NEAR(radii[b], least[b], kPiece) << b;
 }
 
-TEST(Patches, ShareCornersAndAreNumberedInOrder) {
-  const std::vector<Triangle> triangles{{5, 6, 7}, {0, 1, 2}, {2, 3, 4}, {7, 8, 9}, {4, 5, 1}};
-  const std::vector<uint8_t> all(5, 1), some{1, 1, 1, 1, 0};
-  EXPECT_EQ(patches(triangles, all, 10), (std::vector<int32_t>{0, 0, 0, 0, 0}));
-  EXPECT_EQ(patches(triangles, some, 10), (std::vector<int32_t>{0, 1, 1, 0, -1}));
-  EXPECT_EQ(patches(triangles, std::vector<uint8_t>(5, 0), 10), std::vector<int32_t>(5, -1));
-}
-
-// Every ball inside a sphere is the sphere, whatever the mode.
-TEST(Thickness, OfASphereIsItsDiameter) {
-  auto rows = test::ellipsoid(3000, 1);
-  for (Vec3& row : rows) row = normalized(row);
-  const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                {.sides = SidesFrom::normals, .threads = 2});
-  for (const auto mode : {ThicknessMode::wall, ThicknessMode::ball, ThicknessMode::scan}) {
-    const auto found = analysis.thickness({rows}, {.mode = mode});
-    ASSERT_EQ(found.values.size(), rows.size());
-    for (const double value : found.values) EXPECT_NEAR(value, 2, 1e-6);
-  }
-}
-
-TEST(Thickness, DoesNotDependOnTheThreads) {
-  const auto rows = test::ellipsoid(3000, 1);
-  std::vector<std::vector<double>> values;
-  for (const int threads : {1, 3}) {
-    const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                  {.sides = SidesFrom::normals, .threads = threads});
-    values.push_back(analysis.thickness({rows}).values);
-    values.push_back(analysis.thickness({}, {.mode = ThicknessMode::scan}).values);
-  }
-  EXPECT_EQ(values[0], values[2]);
-  EXPECT_EQ(values[1], values[3]);
-}
-
-TEST(Thickness, RefusesWhatItCannotMeasure) {
-  const auto rows = test::ellipsoid(500, 1);
-  const MedialAnalysis analysis({.points = rows, .normals = std::span<const Vec3>(rows)},
-                                {.sides = SidesFrom::normals});
-  EXPECT_THROW(analysis.thickness({}), InvalidInputError);
-  EXPECT_THROW(analysis.thickness({rows}, {.side = Side::both}), InvalidInputError);
-  const std::vector<uint8_t> few(3, 0);
-  EXPECT_THROW(analysis.thickness({rows, std::span<const uint8_t>(few)}), InvalidInputError);
-  const MedialAnalysis without({rows}, {.sides = SidesFrom::none});
-  EXPECT_THROW(without.thickness({rows}), InvalidInputError);
-}
-
 }  // namespace
 }  // namespace medial

@@ -12,16 +12,6 @@
 namespace medial {
 namespace {
 
-WatertightSurface watertight_of(std::span<const Vec3> points, int threads = 2) {
-  return watertight_surface(points, {}, threads);
-}
-
-double enclosed(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-  double sum = 0;
-  for (const auto& [i, j, k] : triangles) sum += dot(points[i], cross(points[j], points[k])) / 6;
-  return sum;
-}
-
 TEST(FaceSet, ATurnAboutAnEdgeMeetsAllItsTrianglesAndComesBack) {
   const auto points = make_samples(test::random_points(60, 3), {1, nullptr}).points;
   const Triangulation t = triangulate(points, {1, nullptr});
@@ -66,48 +56,6 @@ TEST(FaceSet, LinksChainToADiscOnlyWhenEachIsPassedOnce) {
   EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {3, 4}}));                  // a fin
   EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}}));  // two
   EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {3, 4}, {4, 5}, {5, 3}}));  // an eight
-}
-
-TEST(TightCocone, ClosesASampledTorusAndAnEllipsoid) {
-  const auto torus = test::torus(90, 40);
-  const auto points = test::ellipsoid(3000, 1);
-  for (const auto& [rows, euler] :
-       {std::pair{torus.vertices, 0}, std::pair{std::vector<Vec3>(points), 2}}) {
-    const WatertightSurface surface = watertight_of(rows);
-    const auto uses = test::edge_uses(surface.triangles);
-    for (const auto& [edge, count] : uses) ASSERT_EQ(count, 2) << edge[0] << " " << edge[1];
-    EXPECT_EQ(static_cast<int>(rows.size() + surface.triangles.size() - uses.size()), euler);
-    EXPECT_EQ(std::count(surface.on_surface.begin(), surface.on_surface.end(), 0), 0);
-    EXPECT_EQ(surface.nonmanifold_edges + surface.nonmanifold_vertices + surface.cavities, 0);
-    EXPECT_GT(enclosed(rows, surface.triangles), 0);
-  }
-}
-
-TEST(TightCocone, GivesTheSameBytesForEveryThreadCount) {
-  auto points = test::ellipsoid(4000, 2);
-  const auto noise = test::random_points(4000, 3);
-  for (size_t i = 0; i < points.size(); ++i) points[i] = points[i] + 0.02 * noise[i];
-  const WatertightSurface one = watertight_of(points, 1), four = watertight_of(points, 4);
-  EXPECT_GT(one.triangles.size(), 1000u);
-  EXPECT_EQ(one.triangles, four.triangles);
-  EXPECT_EQ(one.sides, four.sides);
-  EXPECT_EQ(one.flat, four.flat);
-  EXPECT_EQ(one.good, four.good);
-}
-
-TEST(TightCocone, CancelsInEveryStage) {
-  const auto points = test::ellipsoid(20000, 4);
-  for (const double share : {0.0, 0.6, 0.905, 0.935, 0.955, 0.975}) {
-    Progress progress;
-    Thread watcher([&] {
-      while (progress.fraction() < share) std::this_thread::yield();
-      progress.cancel();
-    });
-    try {
-      watertight_surface(points, {}, 2, &progress);
-    } catch (const Cancelled&) {
-    }
-  }
 }
 
 TEST(TightCocone, AnEmptySolidIsAnErrorOnlyWhereItIsAskedFor) {

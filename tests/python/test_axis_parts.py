@@ -105,31 +105,32 @@ def test_turned_facets_agree_along_their_sheets(boxed):
     assert np.array_equal(back.generators, boxed.generators)
 
 
-def test_the_numbers_of_threads_make_no_difference(medial, boxed):
-    generator = np.random.default_rng(0)
-    patches = generator.integers(0, 4, (4200, 2), dtype=np.int32)
-    patches[::3, 1] = -1
-    arguments = {
-        name: getattr(boxed, name)
-        for name in ("vertices", "radius", "face_offsets", "face_vertices", "generators")
+def squares(spacing):
+    """Nine squares in a row between two patches, the middle one between the first and a third."""
+    corners = 2 * np.arange(9)[:, None] + (0, 2, 3, 1)
+    patches = np.tile(np.array([(0, -1), (1, -1)], np.int32), (9, 1))
+    patches[9, 0] = 2
+    return {
+        "vertices": np.array([(x, y, 0.0) for x in range(10) for y in (0, 1)]),
+        "radius": np.full(20, 10.0),
+        "face_offsets": np.arange(0, 37, 4, dtype=np.int32),
+        "face_vertices": corners.astype(np.int32).ravel(),
+        "generators": np.arange(18, dtype=np.int32).reshape(-1, 2),
+        "wires": np.empty((0, 2), np.int32),
+        "patches": patches,
+        "spacing": np.full(18, spacing),
     }
-    arguments |= {"wires": boxed.edges, "patches": np.sort(patches)[:, ::-1].copy()}
-    arguments |= {"spacing": np.full(len(patches), 0.05)}
-    one, many = (medial.structure(**arguments, threads=threads) for threads in (1, 8))
-    for name in dir(one):
-        if not name.startswith("_"):
-            assert np.array_equal(getattr(one, name), getattr(many, name)), name
 
 
-def test_units_make_no_difference(boxed):
-    points, triangles = plates.box()
-    large = axis_of((points * 2.0**20, triangles)).structure
-    for name in FIELDS:
-        scale = 2.0**40 if name == "part_area" else 2.0**20
-        wanted = getattr(boxed.structure, name)
-        if name.endswith(("_area", "_radius", "_length")):
-            wanted = wanted * scale
-        assert np.array_equal(getattr(large, name), wanted), name
+def test_crumbs_go_to_their_neighbours(medial):
+    """One square is less than two squared spacings of 0.75."""
+    assert medial.structure(**squares(0.5)).part_area.tolist() == [4.0, 4.0, 1.0]
+    found = medial.structure(**squares(0.75))
+    assert found.part_area.tolist() == [9.0] and not (found.seam == 1).any()
+    rows = squares(0.5)["generators"]
+    for wrong in (rows[:-1], np.where(rows == 1, 99, rows)):
+        with pytest.raises(medial.InvalidInputError):
+            medial.structure(**squares(0.5) | {"generators": wrong})
 
 
 def test_patches_pass_reflex_edges_and_end_at_convex_ones(medial):

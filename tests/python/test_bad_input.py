@@ -13,6 +13,7 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.errors import InvalidInputError, MedialAxisError
 from medial_axis.core.settings import SamplingMode, Settings
 from support import inputs, measure, meshes, shapes
+from support.readers import area_of
 
 CLOUD = np.random.default_rng(0).random((50, 3))
 BALL = meshes.icosphere(1)
@@ -182,25 +183,79 @@ def test_winding_number_checks_its_queries(medial, queries):
 # ---- cancelling
 
 
-@pytest.mark.parametrize("when", [0.02, 0.3, 0.62])
-def test_cancel_from_another_thread(medial, when):
-    """At the start, during the triangulation and after: the computation raises, and the module works on."""
-    points = np.random.default_rng(0).random((200_000, 3))
+def cancelled(medial, when, work):
+    """Whether work ends by Cancel from another thread when so much is done."""
     progress, raised = medial.Progress(), []
 
-    def compute():
+    def run():
         try:
-            medial.MedialAnalysis(points, progress=progress)
+            work(progress=progress)
         except medial.Cancelled as error:
             raised.append(error)
 
-    (worker := threading.Thread(target=compute)).start()
+    (worker := threading.Thread(target=run)).start()
     while worker.is_alive() and progress.fraction < when:
         time.sleep(0.001)
     progress.cancel()
     worker.join(60)
-    assert len(raised) == 1 and 0 <= progress.fraction < 1
+    assert not worker.is_alive() and (0 <= progress.fraction < 1 or not raised)
+    return bool(raised)
+
+
+@pytest.mark.parametrize("when", [0.02, 0.3, 0.62])
+def test_cancel_from_another_thread(medial, when):
+    """At the start, during the triangulation and after: the computation raises, and the module works on."""
+    points = np.random.default_rng(0).random((200_000, 3))
+    assert cancelled(medial, when, partial(medial.MedialAnalysis, points))
     assert len(medial.MedialAnalysis(CLOUD).edges) > 0
+
+
+def on_faces(medial, count):
+    """The analysis of samples of a torus, and its faces."""
+    mesh = meshes.torus(1.0, 0.4, 60, 30)
+    samples = medial.sample_surface(*mesh, count=count, smooth=True)
+    analysis = medial.MedialAnalysis(samples.points, mesh[1], vertices=mesh[0])
+    return analysis, medial.Faces(*mesh, samples.triangle, smooth=True)
+
+
+def crisp_places(medial):
+    analysis, faces = on_faces(medial, 8000)
+    return partial(analysis.hierarchy, faces=faces)
+
+
+def fitted_curves(medial):
+    hierarchy = medial.MedialAnalysis(*meshes.torus(1.0, 0.4, 200, 80)).hierarchy()
+    return partial(hierarchy.extract, sheet=1.0, relaxed=True)
+
+
+def tight_cocone(medial):
+    return partial(medial.TightCocone, shapes.SHAPES["ellipsoid"].random_sample(30_000, 0))
+
+
+@pytest.mark.parametrize("when", [0.0, 0.3, 0.5, 0.7, 0.9])
+@pytest.mark.parametrize("stage", [crisp_places, fitted_curves, tight_cocone])
+def test_cancel_in_every_stage(medial, stage, when):
+    assert cancelled(medial, when, stage(medial)) or when > 0.0
+
+
+def test_crisp_places_have_most_of_the_bar_as_of_the_time(medial):
+    """They change neither the cells nor the exact places."""
+    analysis, faces = on_faces(medial, 1500)
+    progress, before, made = medial.Progress(), [], []
+    work = lambda: made.append(analysis.hierarchy(faces=faces, progress=progress))
+    (worker := threading.Thread(target=work)).start()
+    while worker.is_alive():
+        fraction = progress.fraction
+        if progress.stage == "Crisp places":
+            break
+        before.append(fraction)
+    worker.join(60)
+    assert max(before) < 0.4 and progress.fraction == 1.0
+    crisp, plain = (
+        made[0].extract(spacings=1.0, round_limbs=True, crisp=crisp) for crisp in (True, False)
+    )
+    assert np.array_equal(crisp.face_vertices, plain.face_vertices)
+    assert np.array_equal(crisp.exact, plain.vertices) and crisp.betti == plain.betti
 
 
 def test_progress_rises_to_one_and_names_its_stages(medial):
@@ -244,15 +299,10 @@ def test_a_rotated_box_keeps_its_inner_axis(medial, dtype, seed):
     turned = medial.MedialAnalysis((vertices @ turn.T).astype(dtype), triangles).extract(
         side=medial.Side.INNER
     )
-    assert total_area(turned) == pytest.approx(total_area(straight), rel=0.02)
+    one, other = (area_of(mesh.vertices, measure.polygons(mesh)) for mesh in (turned, straight))
+    assert one == pytest.approx(other, rel=0.02)
     assert shapes.Box().axis_distance(turned.vertices @ turn).max() < 0.06
     assert np.isfinite(turned.vertices).all()
-
-
-def total_area(mesh):
-    fans = measure.fan_triangles(mesh.vertices, mesh.face_offsets, mesh.face_vertices)
-    across = np.cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0])
-    return 0.5 * np.linalg.norm(across, axis=1).sum()
 
 
 def test_a_rotated_box_of_random_samples_in_float64(medial):

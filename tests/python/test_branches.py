@@ -24,6 +24,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from support import meshes, swept, tubes
 from support.poses import turn
+from support.reference import winding_number
 from support.shapes.base import directions
 
 NO_LINES = np.zeros((0, 2, 3))
@@ -165,16 +166,6 @@ def test_lines_without_length_and_without_balls_are_measured():
 # --- cross-sections
 
 
-def windings(places, points, triangles):
-    """The winding number at each place, by the solid angles of all triangles (van Oosterom and Strackee, 1983)."""
-    a, b, c = (points[column] - places[:, None] for column in triangles.T)
-    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
-    pairs = ((a, b, lc), (b, c, la), (c, a, lb))
-    below = la * lb * lc + sum(np.einsum("ijk,ijk->ij", p, q) * size for p, q, size in pairs)
-    above = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
-    return np.arctan2(above, below).sum(axis=1) / (2 * np.pi)
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_a_cross_section_is_what_is_inside_on_its_plane(data_file, seed):
     """Brute force: places on a grid that are inside, as far as they hang together with the middle one."""
@@ -189,8 +180,8 @@ def test_a_cross_section_is_what_is_inside_on_its_plane(data_file, seed):
     frame = np.linalg.svd(normal[None])[2][1:]
     half, step = 30, 0.1 * np.sqrt(area)
     grid = np.stack(np.meshgrid(*[np.arange(-half, half + 1) * step] * 2), axis=-1)
-    inside = [windings(place + row @ frame, points, triangles) > 0.5 for row in grid]
-    pieces, _ = label(inside)
+    inside = winding_number(place + grid.reshape(-1, 2) @ frame, points, triangles) > 0.5
+    pieces, _ = label(inside.reshape(grid.shape[:2]))
     assert pieces[half, half]
     counted = binary_fill_holes(pieces == pieces[half, half]).sum() * step**2
     assert area == pytest.approx(counted, rel=0.05)

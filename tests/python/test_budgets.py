@@ -3,8 +3,7 @@
 
 import pytest
 from support.constants import ANY_CPP, is_number, of_cpp, of_python
-from test_docs import rows
-from test_layers import ADDON, CORE, MAY_INCLUDE, MEDIAL, NATIVE, ROOT
+from test_layers import ADDON, CORE, MAY_INCLUDE, MEDIAL, NATIVE, ROOT, rows
 
 UNITS, LINES = 20, 4500  # of a room, at most
 # Rooms with more units: the vocabulary of the core, and what is still to be divided.

@@ -20,6 +20,8 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from support import meshes
 from support.meshes import join
+from support.plates import box, prism
+from support.topology import unit_normals
 
 from tests.support.fuzz import repeats
 
@@ -33,15 +35,9 @@ def halves(polygons):
     )
 
 
-def box(*size):
-    points = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]) * size
-    faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    return points, halves(faces)
-
-
 def cube_with_fin(width, thickness):
     """A unit cube with a fin on top: one closed manifold of 16 vertices."""
-    cube = box(1, 1, 1)[0][[0, 1, 3, 2, 4, 5, 7, 6]]
+    cube = box((1, 1, 1))[0]
     xs, ys = 0.5 + np.array([-1, 1]) * width / 2, 0.5 + np.array([-1, 1]) * thickness / 2
     foot = [(xs[0], ys[0], 1), (xs[1], ys[0], 1), (xs[1], ys[1], 1), (xs[0], ys[1], 1)]
     top = np.array(foot) + np.array((0, 0, 0.1))
@@ -54,12 +50,6 @@ def cube_with_fin(width, thickness):
 
 def measured(*mesh, settings=Settings(), **wanted):
     return measure_thickness(meshes.shape_of(mesh), settings, ThicknessSettings(**wanted))
-
-
-def normals_of(points, triangles):
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    return normals / np.linalg.norm(normals, axis=1)[:, None]
 
 
 FINS = [(width, t) for width in (0.05, 0.1, 0.2, 0.5) for t in (0.002, 0.0005, 1e-5)]
@@ -77,7 +67,7 @@ def values_near(found, places, reach):
 
 THIN_THINGS = [
     *(pytest.param(cube_with_fin(*fin), 0.02, id=f"fin-{fin}") for fin in FINS),
-    *(pytest.param(box(1.0, 1.0, t), 0.02, id=f"plate-{t}") for t in (0.002, 0.0015, 1e-5)),
+    *(pytest.param(box((1.0, 1.0, t)), 0.02, id=f"plate-{t}") for t in (0.002, 0.0015, 1e-5)),
     pytest.param(cube_with_fin(0.5, 0.002), 0.001, id="no limit is met"),
 ]
 
@@ -85,7 +75,7 @@ THIN_THINGS = [
 def assert_below_rays(found, medial):
     """In the middles of the measured triangles, and next to their corners away from edges."""
     points, triangles = found.shape.points, found.shape.triangles
-    normals = normals_of(points, triangles)[found.surface.face_of_triangles]
+    normals = unit_normals(points, triangles)[found.surface.face_of_triangles]
     reach = np.full(len(normals), np.linalg.norm(np.ptp(points, axis=0)))
     middles = found.points[found.triangles].mean(axis=1)
 
@@ -121,7 +111,7 @@ def test_fuzzed_thin_parts(medial, seed):
     if rng.random() < 0.4:
         mesh = join(mesh, moved_block(*rng.uniform(-0.6, 0.6, 2), rng.uniform(-1.2, -0.2)))
     elif rng.random() < 0.4:
-        mesh = box(1.0, rng.uniform(0.1, 1.0), 10 ** rng.uniform(-5.0, -1.5))
+        mesh = box((1.0, rng.uniform(0.1, 1.0), 10 ** rng.uniform(-5.0, -1.5)))
     turned = mesh[0] @ Rotation.random(random_state=seed).as_matrix().T
     points = (turned + rng.uniform(-2.0, 2.0, 3)) * 10 ** rng.uniform(-8.0, 8.0)
     sampling = (SamplingMode.SURFACE, SamplingMode.VERTICES)[seed % 2]
@@ -148,7 +138,7 @@ def test_a_fin_is_seen(tmp_path, width, thickness):
     assert lengths[8:] == pytest.approx(np.full(8, thickness), rel=0.01)
     assert (lengths[:8] > 0.5).all()
     on_fin = triangles.min(axis=1) >= 8
-    sides = on_fin & (np.abs(normals_of(points, triangles)[:, 1]) > 0.9)
+    sides = on_fin & (np.abs(unit_normals(points, triangles)[:, 1]) > 0.9)
     assert (parts.patch_of_faces[sides] >= 0).all() and (parts.patch_of_faces[~on_fin] < 0).all()
     path = export_thickness(found, parts, tmp_path / "fin.ply")
     head, body = path.read_bytes().split(b"end_header\n", 1)
@@ -182,7 +172,7 @@ def test_vertices_that_are_samples_have_the_length_of_the_faces_at_them():
     """A fine cube with a fin whose own faces are large."""
     points, triangles = cube_with_fin(0.5, 0.002)
     found = measured(points, triangles, settings=Settings(sampling=SamplingMode.VERTICES))
-    sides = np.abs(normals_of(points, triangles)[:, 1]) > 0.9
+    sides = np.abs(unit_normals(points, triangles)[:, 1]) > 0.9
     sides &= triangles.min(axis=1) >= 8
     assert (found.of_triangles[sides] <= 0.00201).all() and (found.of_vertices[8:] <= 0.00201).all()
 
@@ -190,11 +180,7 @@ def test_vertices_that_are_samples_have_the_length_of_the_faces_at_them():
 def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
     """A block with a tongue of 0.002; both stand on one long face."""
     profile = [(0, 0), (2, 0), (2, 0.002), (1, 0.002), (1, 0.4), (0, 0.4)]
-    points = np.array([(x, y, z) for y in (0.0, 0.5) for x, z in profile])
-    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-    ends = [[5, 4, 3, 0], [3, 2, 1, 0]]
-    triangles = halves([*sides, *ends, *([i + 6 for i in end[::-1]] for end in ends)])[:, ::-1]
-    found = measured(points, triangles, limit=0.02)
+    found = measured(*prism(profile, [(0, 3, 4), (0, 4, 5), (0, 1, 2), (0, 2, 3)], 0.5), limit=0.02)
     parts = find_thin_parts(found, 0.02)
     place = found.points[found.triangles].mean(axis=1)
     thin = parts.patch_of_triangles >= 0
@@ -219,14 +205,14 @@ def test_pieces_cover_a_face(cut):
 
 @pytest.mark.parametrize("thickness", [0.01, 0.002, 0.0015, 0.0003, 1e-5])
 def test_plates_have_their_thickness_however_thin(thickness):
-    found = measured(*box(1.0, 1.0, thickness), limit=0.02)
+    found = measured(*box((1.0, 1.0, thickness)), limit=0.02)
     assert (found.of_vertices <= 1.01 * thickness).all()
     assert found.minimum == pytest.approx(thickness, rel=0.01)
     assert find_thin_parts(found, 0.02).share > 0.9 and found.unmeasured < 0.01
 
 
 def moved_block(*offset):
-    return meshes.moved(box(1.0, 1.0, 1.0), offset)
+    return meshes.moved(box((1.0, 1.0, 1.0)), offset)
 
 
 def test_a_fin_on_parts_that_overlap():
@@ -242,7 +228,7 @@ def test_a_fin_on_parts_that_overlap():
     [(0.5, 0.3, 0.2), (0.99, 0.3, 0.2), (0.0, 0.001, 0.6), (1e-16, 0, 0.5), (0, 1e-9, 0.6)],
 )
 def test_thick_parts_that_overlap_have_no_close_walls(offset):
-    found = measured(*join(box(1.0, 1.0, 1.0), moved_block(*offset)))
+    found = measured(*join(box((1.0, 1.0, 1.0)), moved_block(*offset)))
     assert found.chosen.samples.buried > 100 and not len(found.walls.distance)
 
 
@@ -250,7 +236,7 @@ def test_ways_end_where_the_solid_does(data_file, medial):
     """Faces of several parts coincide in this mesh: rays once ended at one of them, inside another part."""
     points, triangles = meshes.read(data_file("openscad-nonmanifold-crash.obj"))
     walls = measured(points, triangles).walls
-    inward = -normals_of(points, triangles)[walls.faces]
+    inward = -unit_normals(points, triangles)[walls.faces]
     steps = np.array([-0.02, 0.02, 0.5, 0.98, 1.02])[:, None, None] * walls.distance[:, None]
     places = (walls.points + steps * inward).reshape(-1, 3)
     triangles = triangles.astype(np.int32)
@@ -264,7 +250,7 @@ def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
     nothing = lambda shape, *_: close_walls.no_close_walls(shape)
     monkeypatch.setattr(thickness_module, "close_walls", nothing)
     monkeypatch.setattr(thickness_module, "are_enough", lambda *_: False)
-    source = meshes.write_off(tmp_path / "plate.off", box(1.0, 1.0, 1e-5))
+    source = meshes.write_off(tmp_path / "plate.off", box((1.0, 1.0, 1e-5)))
     output = tmp_path / "plate.json"
     assert cli.main(["thickness", source, str(output), "--limit", "0.02"]) == cli.UNMEASURED
     found = json.loads(output.read_text())
@@ -273,18 +259,12 @@ def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
 
 
 def test_what_is_left_out_on_purpose_is_not_unknown():
-    assert measured(*box(1, 1, 1), edges=Edges.GREY).unmeasured == 0.0
+    assert measured(*box((1, 1, 1)), edges=Edges.GREY).unmeasured == 0.0
 
 
 def test_only_wedges_of_the_solid_are_acute_edges():
     """Inside out, the sharp edge of a wedge is that of a groove, where ways through the solid do not become short."""
-    profile = ((0.0, 0.0), (4.0, -1.0), (4.0, 1.0))
-    points = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in profile])
-    triangles = np.array(
-        [(0, 1, 2), (3, 5, 4), (0, 3, 4), (0, 4, 1), (1, 4, 5), (1, 5, 2), (2, 5, 3), (2, 3, 0)],
-        np.int32,
-    )
-    outward = triangles if Shape(points, triangles).volume > 0 else triangles[:, ::-1]
+    points, outward = prism([(0, 0), (4, -1), (4, 1)], [(0, 1, 2)], 1.0)
     found = close_walls._acute_edges(Shape(points, outward))
-    assert sorted(map(tuple, found.reshape(-1, 3).tolist())) == [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+    assert sorted(map(tuple, found.reshape(-1, 3).tolist())) == [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
     assert len(close_walls._acute_edges(Shape(points, outward[:, ::-1]))) == 0

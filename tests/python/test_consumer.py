@@ -67,7 +67,7 @@ def configure(folder, *definitions):
 @LIBRARY
 def test_sources_as_a_part_of_another_project(with_sources):
     text = run(with_sources / "cube")
-    assert ": 192 facets, largest ball 4\n" in text  # as in tests/native/analysis_test.cpp
+    assert ": 192 facets, largest ball 4\n" in text  # as in test_convergence.py
     assert text in (ROOT / "docs" / "libraries.md").read_text(encoding="utf-8")
     cache = (with_sources / "CMakeCache.txt").read_text()
     assert "MEDIAL_PYTHON:BOOL=OFF" in cache and "MEDIAL_TESTS:BOOL=OFF" in cache

@@ -18,6 +18,7 @@ from support import (
     crossing_triangles,
     crossings,
     distance,
+    measure,
     meshes,
     mid_surfaces,
     topology,
@@ -207,17 +208,6 @@ def test_crossing_pairs_are_those_of_all_pairs(seed):
     assert len(found) > 40 and found == brute_crossings(points, triangles)
 
 
-def test_a_crossing_pair_of_an_axis_is_noticed():
-    whole = axis_of_box()
-    far = np.array([[0.0, 0.0, -0.1], [0.1, 0.0, 0.1], [0.0, 0.1, 0.1]])
-    more = replace(
-        whole,
-        vertices=np.concatenate((whole.vertices, far)),
-        triangles=np.concatenate((whole.triangles, [[12, 13, 14]])),
-    )
-    assert len(crossing_triangles.crossing_pairs(more.vertices, more.triangles)) >= 1
-
-
 # --- the bars of the product
 
 FLAT = ("box", "wedge", "blunt", "fan")
@@ -363,7 +353,7 @@ def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(medial):
     output = crisp_measures.output_of(made, np.eye(3))
     ends = [(s * (a - curvature), 0.0, t * (half - curvature)) for s in (-1, 1) for t in (-1, 1)]
     assert cKDTree(output.vertices).query(ends)[0].max() < 0.3 * curvature
-    sides = output.vertices[output.face_vertices[output.following()]]
+    sides = output.vertices[output.face_vertices[measure.following(output)]]
     sides = np.linalg.norm(sides - output.vertices[output.face_vertices], axis=1)
     assert sides.max() < 1.2 * curvature and output.rings().folded().sum() == 0
 
@@ -373,6 +363,6 @@ def test_the_rim_round_a_thin_plate_stays_where_it_is(medial, sides, t):
     """One closed line ends the sheet, and its vertices were drawn together in one place: facets were 0.9 wide."""
     made = medial_axis.compute(*mid_surfaces.round_plate(sides, t).mesh, samples=2_500)
     output = crisp_measures.output_of(made, np.eye(3))
-    ends = output.vertices[output.face_vertices[output.following()]]
+    ends = output.vertices[output.face_vertices[measure.following(output)]]
     assert np.linalg.norm(ends - output.vertices[output.face_vertices], axis=1).max() < 0.1
     assert np.ptp(output.vertices[:, :2], axis=0).min() > 0.8

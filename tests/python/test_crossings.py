@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support import crossings, distance, meshes, reference
+from support import crossings, distance, meshes, messy, reference
 from support.shape_meshes import MESHED
 
 CASES = {
@@ -15,9 +15,7 @@ CASES = {
     "inside out": meshes.flip(meshes.icosphere(1)),
     "torus": MESHED["torus"][1],
     "cone": MESHED["cone"][1],
-    "soup": (lambda v, t: (v[t].reshape(-1, 3), np.arange(t.size).reshape(-1, 3)))(
-        *meshes.uv_sphere(12, 6)
-    ),
+    "soup": messy.soup(meshes.uv_sphere(12, 6)),
 }
 
 

@@ -15,7 +15,7 @@ from medial_axis.core.curves.removals import recorded
 from medial_axis.core.curves.smooth_line import Course, smooth_between
 from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.compute import compute_skeleton
-from medial_axis.core.united import united
+from support.levels import betti_of_mesh
 from support.meshes import capsule, flip, icosphere, join, moved, shape_of, torus
 
 DETAILS = (1.0, 0.75, 0.5, 0.25, 0.0)
@@ -52,19 +52,6 @@ def curves():
     return found
 
 
-def counted(axis):
-    """Pieces, and pieces less loops plus cavities, counted on the cells of an axis."""
-    corners = axis.face_vertices
-    starts = np.repeat(axis.face_offsets[:-1], np.diff(axis.face_offsets))
-    after = np.arange(len(corners)) + 1
-    last = np.isin(after, axis.face_offsets[1:])
-    rims = np.column_stack((corners, corners[np.where(last, starts, after % max(len(corners), 1))]))
-    edges = np.unique(np.sort(np.concatenate((axis.edges, rims)), axis=1), axis=0)
-    assert (edges[:, 0] != edges[:, 1]).all()
-    pieces = len(np.unique(united(len(axis.vertices), edges)))
-    return pieces, len(axis.vertices) - len(edges) + axis.facets
-
-
 def tips(axis):
     alone = np.bincount(axis.edges.ravel(), minlength=len(axis.vertices)) == 1
     alone[axis.face_vertices] = False
@@ -77,7 +64,7 @@ def test_betti_numbers_are_those_of_the_cells(curves, name, detail):
     _computation, smooth, raw = curves[name]
     for axis in (smooth[detail], raw[detail]):
         pieces, loops, cavities = axis.level.betti
-        assert counted(axis) == (pieces, pieces - loops + cavities)
+        assert betti_of_mesh(axis, axis.edges) == (pieces, pieces - loops + cavities)
         assert len(axis.level.limb) == len(axis.edges)
         rows = ("exact", "exact_radius", "place", "crumb")
         assert {len(getattr(axis.level, row)) for row in rows} == {len(axis.vertices)}

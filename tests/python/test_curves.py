@@ -12,6 +12,7 @@ from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
+from support.plates import prism
 from support.shapes import SHAPES, Cyclide, RoundCone, frustum
 from support.thick_meshes import block, pipe
 
@@ -144,11 +145,8 @@ def test_exact_places_are_vertices_of_the_hierarchy(sampled, name):
 def channel():
     """A bar with a narrow channel along it: its two walls are thin, and so is the air between them."""
     profile = [(0, 0), (0.25, 0), (0.25, 0.5), (0.15, 0.5), (0.15, 0.1), (0.1, 0.1), (0.1, 0.5), (0, 0.5)]  # fmt: skip
-    points = np.array([(x, y, z) for z in (0.0, 0.3) for x, y in profile])
-    sides = [((i, j, j + 8), (i, j + 8, i + 8)) for i, j in zip(range(8), [*range(1, 8), 0])]
-    end = [(0, 5, 7), (7, 5, 6), (0, 1, 4), (0, 4, 5), (1, 2, 4), (2, 3, 4)]
-    ends = [t for a, b, c in end for t in ((c, b, a), (a + 8, b + 8, c + 8))]
-    return points, np.array([t for pair in sides for t in pair] + ends, np.int32)
+    caps = [(0, 5, 7), (7, 5, 6), (0, 1, 4), (0, 4, 5), (1, 2, 4), (2, 3, 4)]
+    return prism(profile, caps, 0.3)
 
 
 def thrown(points, triangles, count, seed):

@@ -5,27 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import test_export
 from medial_axis.core.axis import cut
-from medial_axis.core.axis.medial_axis import MedialAxis
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 
 def axis_of(points, polygons):
-    """A medial axis of these polygons, whose attributes identify the facets."""
-    count = len(polygons)
-    return MedialAxis(
-        vertices=np.asarray(points, np.float64),
-        radius=np.arange(len(points), dtype=np.float64),
-        face_offsets=np.concatenate([[0], np.cumsum([len(p) for p in polygons])]).astype(np.int32),
-        face_vertices=np.concatenate([np.asarray(p, np.int32) for p in polygons]),
-        theta=np.arange(count, dtype=np.float64),
-        rho=np.arange(count, dtype=np.float64),
-        side=np.ones(count, np.int32),
-        generators=np.arange(2 * count, dtype=np.int32).reshape(-1, 2),
-        unbounded=0,
-        zero_area=0,
-    )
+    """A medial axis of these polygons, whose theta numbers the facets."""
+    return replace(test_export.axis_of(points, polygons), theta=np.arange(float(len(polygons))))
 
 
 def random_axis(seed, vertices=300, count=50):

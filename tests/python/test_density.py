@@ -66,18 +66,6 @@ def test_percent(share, text):
     assert percent(share) == text
 
 
-@pytest.mark.parametrize("reach", [1e-3, 0.05, 0.3, 10.0])
-@pytest.mark.parametrize("shift", [0.0, 1e4])
-def test_near_is_what_brute_force_says(reach, shift):
-    points = RNG.random((400, 3)) + shift
-    others = RNG.random((60, 3)) * (1.0, 1.0, 0.0) + shift
-    distance = np.linalg.norm(points[:, None] - others, axis=2).min(axis=1)
-    found = near(points, others, reach)
-    clear = np.abs(distance - reach) > 1e-9
-    np.testing.assert_array_equal(found[clear], (distance <= reach)[clear])
-    assert near(others, others, reach).all()
-
-
 def test_nothing_is_near_nothing():
     points = np.zeros((3, 3))
     assert not near(points, np.zeros((0, 3)), 1.0).any()

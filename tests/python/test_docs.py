@@ -11,7 +11,7 @@ from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Switch
 from medial_axis.core.settings import LOOKS, OPTIONS, THICKNESS_OPTIONS
 from support.package import ROOT
-from test_layers import BRIDGE, CORE, MAY_IMPORT, MAY_INCLUDE
+from test_layers import SPAN, rows
 
 from tests.wrap_docs import WRITTEN, wrap
 
@@ -45,7 +45,6 @@ FOREIGN = {
     "--disable-autoexec": "Blender",
 }
 
-SPAN = re.compile(r"`([^`\n]+)`")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 NAME = re.compile(r"(?<![\w$~-])[A-Za-z_]\w*(?![\w-])")
 PATH = re.compile(
@@ -136,14 +135,7 @@ def test_foreign_words_are_still_needed():
     assert [word for word in FOREIGN if word not in text] == []
 
 
-# --- tables of algorithm.md and architecture.md
-
-
-def rows(page, head):
-    """The cells of a table, by how its first line begins."""
-    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
-    table = text[text.index(head) :].partition("\n\n")[0].splitlines()[2:]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
+# --- the table of algorithm.md
 
 
 UNITS = (ROOT / "native" / "medial", ROOT / "lab" / "native")
@@ -169,28 +161,6 @@ def test_the_paper_is_found_in_the_code():
         text = "".join(path.read_text(encoding="utf-8") for path in paths)
         for name in re.findall(r"\w+", " ".join(SPAN.findall(what))):
             assert re.search(rf"\b{name}\b", text), f"{paper}: {name}"
-
-
-def test_rooms_of_the_core_see_what_the_table_says():
-    table = {
-        SPAN.findall(room)[0]: set(SPAN.findall(sees))
-        for room, _, sees in rows("architecture.md", "| room of the core |")
-        if "`" in room
-    }
-    assert table == {room: seen - {"."} for room, seen in MAY_INCLUDE.items() if room != "."}
-
-
-def test_rooms_of_python_see_what_the_table_says():
-    """Rooms of core are named without it; `core` and `core/machine`, which all see, are left out, as is the package."""
-    everywhere = {"core", "core/machine"}
-    for room, _, sees in rows("architecture.md", "| room of Python |"):
-        (name,) = SPAN.findall(room)
-        seen = {f"core/{s}" if f"core/{s}" in CORE else s for s in SPAN.findall(sees)}
-        seen |= CORE if "all of `core`" in sees else set()
-        seen |= BRIDGE if "all of `bridge`" in sees else set()
-        assert seen | everywhere == MAY_IMPORT[name] - {"", "lib"} | everywhere, name
-    named = {SPAN.findall(room)[0] for room, *_ in rows("architecture.md", "| room of Python |")}
-    assert named == set(MAY_IMPORT)
 
 
 def test_names_of_the_library_in_the_examples_are_there():

@@ -92,6 +92,12 @@ def test_curved_walls_are_missed_by_chords_only(name):
     found, (missed, off) = made(name).measured(), CURVED[name]
     assert found.cov.p99 < missed and found.err.mean < off
     assert found.folds == found.crossings == 0
+    if name == "cone":  # whose tip is an end of the axis
+        tip = crisp_solids.solid(name).mesh[0].max(axis=0)[2]
+        level = made(name).output()
+        row = level.vertices[:, 2].argmax()
+        assert level.vertices[row] == pytest.approx([0.0, 0.0, tip], abs=1e-12)
+        assert level.radius[row] == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", ["ellipsoid", "oblate"])
@@ -178,19 +184,33 @@ def test_points_without_faces_have_even_triangles_at_the_samples():
     assert least_angles(even).mean() > 40
 
 
-def test_bytes_do_not_depend_on_the_threads(medial):
-    computation = made("ellipsoid").computation
+@pytest.mark.parametrize("name", ["ellipsoid", "box", "cone"])
+def test_bytes_do_not_depend_on_the_threads(medial, name):
+    """An even mesh and the crisp places of a Voronoi diagram are the same to the byte."""
+    computation = made(name).computation
     samples, axes = computation.chosen.samples, []
     solid = samples.solid
     for threads in (1, 2, 5):
         mesh = {"triangles": solid.shape.triangles, "vertices": solid.shape.points}
         analysis = medial.MedialAnalysis(samples.points, **mesh, threads=threads)
         faces = solid.of_module(medial, *solid.options(computation.settings))
-        hierarchy = analysis.hierarchy(faces=faces, places=False)
-        even = hierarchy.even(spacings=1.0, crisp=True)
-        level = even.extract(crisp=True, relaxed=True)
-        axes.append((level.vertices.tobytes(), level.face_vertices.tobytes()))
+        even = analysis.hierarchy(faces=faces, places=False).even(spacings=1.0, crisp=True)
+        placed = analysis.hierarchy(faces=faces)
+        axes.append(
+            [
+                getattr(level, array).tobytes()
+                for level in (
+                    even.extract(crisp=True, relaxed=True),
+                    placed.extract(spacings=1.0, round_limbs=True, relaxed=True, crisp=True),
+                )
+                for array in ("vertices", "radius", "face_vertices")
+            ]
+        )
     assert axes[0] == axes[1] == axes[2]
+    for face in (solid.face[:3], np.full_like(solid.face, len(solid.shape.triangles))):
+        wrong = medial.Faces(mesh["vertices"], mesh["triangles"], face)
+        with pytest.raises(medial.InvalidInputError):
+            analysis.hierarchy(faces=wrong)
 
 
 # --- the hierarchy of an even mesh: levels, Theta and Rho

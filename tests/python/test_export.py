@@ -17,6 +17,7 @@ from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
 from support.inputs import rotation
 from support.measure import polygons
+from support.readers import read_ma
 from support.topology import vector_areas
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
@@ -106,21 +107,6 @@ def axis(request):
 # --- readers, written from the formats and not from the writers
 
 
-def read_ma(path):
-    """(v, 4) centres and radii, (e, 2) edges, (f, 3) triangles of a plain .ma file."""
-    tokens = Path(path).read_bytes().split()
-    counts, rest = [int(token) for token in tokens[:3]], tokens[3:]
-    sections = []
-    for letter, width, count, kind in zip((b"v", b"e", b"f"), (4, 2, 3), counts, (float, int, int)):
-        rows = [rest[at : at + width + 1] for at in range(0, count * (width + 1), width + 1)]
-        rest = rest[count * (width + 1) :]
-        assert all(row[0] == letter for row in rows)
-        numbers = [[kind(x) for x in row[1:]] for row in rows]
-        sections.append(np.array(numbers, kind).reshape(count, width))
-    assert rest == []
-    return sections
-
-
 def polygons_of(axis):
     return polygons(axis) if len(axis.face_offsets) > 1 else []
 
@@ -172,21 +158,13 @@ def read_ply(path):
 # --- content
 
 
-def test_ma_holds_every_number_exactly(axis, tmp_path):
-    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma"))
+def test_ma_holds_every_number_each_edge_once_and_triangles_that_cover_each_polygon(axis, tmp_path):
+    vertices, edges, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
     assert np.array_equal(vertices, balls(axis))
-
-
-def test_ma_lists_every_edge_once_and_only_edges_of_faces_and_those_alone(axis, tmp_path):
-    _, edges, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
     listed = [tuple(sorted(edge)) for edge in edges.tolist()]
     of_faces = {tuple(sorted((f[i], f[i - 1]))) for f in faces.tolist() for i in range(3)}
     assert len(set(listed)) == len(listed)
     assert set(listed) == of_faces | {tuple(sorted(edge)) for edge in axis.edges.tolist()}
-
-
-def test_ma_triangles_cover_each_polygon(axis, tmp_path):
-    vertices, _, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
     counts = np.diff(axis.face_offsets)
     assert len(faces) == (counts - 2).sum()
     areas = vector_areas(vertices[:, :3], faces)

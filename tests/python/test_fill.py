@@ -15,6 +15,7 @@ from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.fill import filled
 from support.meshes import shape_of, write_off
 from support.thick_meshes import block, lathe, shell
+from support.thin_solids import union
 
 BEND, OUTSIDE, INSIDE = 5.0, 1.0, 0.8
 
@@ -41,29 +42,12 @@ def bent_pipe(turn=np.pi / 2, rings=40, around=32):
 
 
 def duct():
-    """A T of square ducts, 7 outside and 5 inside, along X from -16 to 16 and along Y from 0 to 16."""
-    cells = np.zeros((33, 22, 9), bool)
-    for half, full in ((3, True), (2, False)):
-        cells[:, 4 - half : 5 + half, 4 - half : 5 + half] = full
-        cells[16 - half : 17 + half, 4:, 4 - half : 5 + half] |= full
-        if not full:
-            cells[16 - half : 17 + half, 4:, 4 - half : 5 + half] = False
-    cells = np.pad(cells, 1)
-    squares = []
-    for axis in range(3):
-        one, two = (axis + 1) % 3, (axis + 2) % 3
-        for side in (0, 1):
-            there = cells & ~np.roll(cells, 1 - 2 * side, axis)
-            at = np.argwhere(there)
-            corners = np.repeat(at[:, None], 4, axis=1)
-            corners[:, :, axis] += side
-            turns = [(0, 0), (1, 0), (1, 1), (0, 1)][:: 1 if side else -1]
-            corners[:, :, [one, two]] += np.array(turns)
-            squares.append(corners)
-    squares = np.concatenate(squares)
-    points, row = np.unique(squares.reshape(-1, 3), axis=0, return_inverse=True)
-    row = row.reshape(-1, 4)
-    return points - (17.5, 5.5, 5.5), np.concatenate((row[:, [0, 1, 2]], row[:, [0, 2, 3]]))
+    """A T of square ducts, 7 outside and 5 inside, along X from -16.5 to 16.5 and along Y from 0 to 17.5."""
+    outer, inner = (
+        (((-16.5, -half, -half), (16.5, half, half)), ((-half, 0, -half), (half, 17.5, half)))
+        for half in (3.5, 2.5)
+    )
+    return union(*outer, without=inner)
 
 
 CUP = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.9, 3.0), (0.9, 0.1), (0.0, 0.1)]

@@ -100,14 +100,10 @@ def test_betti_numbers_by_faces(medial, name):
     assert medial.solid_betti(*alone) == expected
 
 
-def test_no_betti_numbers_by_faces_that_bound_nothing(medial):
+def test_betti_numbers_need_faces_of_these_points(medial):
+    """Open, pinched and flat surfaces, which have none: tests/native/solid_test.cpp."""
     points, triangles = BALL
-    assert medial.solid_betti(points, triangles[1:]) is None  # open
     assert medial.solid_betti(points, NONE) is None
-    both = np.concatenate([triangles, triangles[:, ::-1]])
-    assert medial.solid_betti(points, both) is None  # every edge is in four
-    touching = mesh_of(BALL, (2 * points[0] - points, triangles[:, ::-1]))
-    assert medial.solid_betti(touching.points, touching.triangles) is None  # at one vertex
     with pytest.raises(medial.InvalidInputError, match="Expected triangle corners below"):
         medial.solid_betti(points, triangles + 1)
 

@@ -323,28 +323,6 @@ def test_reading_does_not_change_the_file(tmp_path, read):
     assert (tmp_path / "a.off").read_text() == off()
 
 
-# --- data of others
-
-
-@pytest.mark.parametrize(
-    "name, vertices, faces",
-    [
-        ("3holes.off", 3596, 7200), ("knot1.off", 3200, 6400), ("mannequin.off", 11703, 23402),
-        ("fandisk_large.off", 15843, 31682), ("club.off", 9597, 19136),
-        ("foot.off", 10010, 20016), ("screwdriver.off", 27152, 54300), ("dilo.off", 27174, 54344),
-        ("rocker-arm.off", 10044, 20088), ("elephant-with-holes.off", 2798, 4463),
-    ],
-)  # fmt: skip
-def test_meshes(data_file, name, vertices, faces):
-    found = import_points(data_file(name))
-    tokens = data_file(name).read_bytes().split()[4:]
-    points = np.array(tokens[: 3 * vertices], float).reshape(-1, 3)
-    triangles = np.array(tokens[3 * vertices :], int).reshape(faces, 4)
-    assert_points(found, points)
-    assert np.array_equal(found.face_vertices.reshape(-1, 3), triangles[:, 1:])
-    assert found.faces == faces and found.warnings == ()
-
-
 # --- what is kept in 32 bits
 
 

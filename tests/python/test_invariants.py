@@ -101,16 +101,8 @@ def assert_order(mesh):
     assert ((mesh.theta >= 0) & (mesh.theta <= np.pi / 2)).all() and (mesh.rho >= 0).all()
 
 
-def test_balls_are_empty_and_vertices_equidistant(result):
-    assert_balls(result[0], result[2])
-
-
-def test_polygons_are_planar_convex_and_turn_about_pq(result):
-    assert_polygons(result[0], result[2])
-
-
-def test_order_and_welding(result):
-    assert_order(result[2])
+def test_balls_polygons_and_order(result):
+    assert_invariants(result[0], result[2])
 
 
 def test_facets_of_positive_area_leave_no_counted_facet_out(result):

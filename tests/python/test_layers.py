@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The dependency rule, read from the sources: ui -> bridge -> core -> _medial -> analysis -> the rooms of the core.
 
-The rooms are folders, and what each may see is written down here, room by room. No bpy in core, no ui in bridge, no
-NumPy in ui, CGAL in native/medial/delaunay and mesh alone, no pybind11 outside native/python.
+The rooms are folders, and what each may see is in the tables of docs/architecture.md. No bpy in core, no ui in bridge,
+no NumPy in ui, CGAL in native/medial/delaunay and mesh alone, no pybind11 outside native/python.
 """
 
 import ast
@@ -16,57 +16,38 @@ ADDON = ROOT / "blender_addon"
 NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
-# The rooms that each room may import besides itself; "" is the package itself (its name and version).
-_ALL = {"core", "core/machine"}  # every room of core sees these
-MAY_IMPORT = {
-    "core": set(),
-    "core/machine": {"core", "lib"},
-    "core/shape": _ALL,
-    "core/samples": {*_ALL, "core/shape"},
-    "core/curves": {*_ALL, "core/shape", "core/samples"},
-    "core/axis": {*_ALL, "core/shape", "core/samples", "core/curves", ""},
-    "core/files": {*_ALL, "core/shape", "core/axis"},
-    "core/thickness": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
-    "core/mid_surface": {
-        *(*_ALL, "core/shape", "core/samples", "core/axis", "core/files", "core/thickness"),
-    },
-    "core/hollow": {*_ALL, "core/shape", "core/samples"},
-    "core/solidify": {*_ALL, "core/shape", "core/samples", "core/thickness"},
-    "core/cover": {*_ALL, "core/shape", "core/samples", "core/axis", "core/files"},
-    "core/robot": {*_ALL, "core/shape", "core/files", "core/cover"},
-    "core/rebuild": {*_ALL, "core/shape", "core/samples", "core/axis"},
-    "core/skeleton": {
-        *(*_ALL, "core/shape", "core/samples", "core/curves", "core/axis", "core/files"),
-    },
-    "core/rig": {*_ALL, "core/shape", "core/curves", "core/skeleton"},
-}
-MAY_IMPORT |= {
-    "core/batch": {*_ALL, "core/shape", "core/files", ""},
-    "core/products": {*MAY_IMPORT, "core/batch"} - {"core/samples", "core/curves", "core/rig"},
-}
-CORE = set(MAY_IMPORT)
-_BELOW = {*CORE, ""}
-MAY_IMPORT |= {
-    "bridge/mesh": _BELOW,
-    "bridge/nodes": {*_BELOW, "bridge/mesh"},
-    "bridge/objects": {*_BELOW, "bridge/mesh"},
-    "bridge/axis": {*_BELOW, "bridge/mesh", "bridge/nodes", "bridge/objects"},
-    "bridge/skeleton": {*_BELOW, "bridge/mesh", "bridge/nodes", "bridge/objects", "bridge/axis"},
-    "bridge/thickness": {*_BELOW, "bridge/mesh", "bridge/nodes", "bridge/objects", "bridge/axis"},
-}
-BRIDGE = {"bridge", *(room for room in MAY_IMPORT if room.startswith("bridge/"))}
-_BELOW = {*CORE, *BRIDGE, ""}
-MAY_IMPORT |= {
-    "bridge": _BELOW,
-    "commands": _BELOW,
-    "ui/base": _BELOW,
-    "ui/settings": {*_BELOW, "ui/base"},
-    "ui/axis": {*_BELOW, "ui/base", "ui/settings"},
-    "ui/skeleton": {*_BELOW, "ui/base", "ui/settings", "ui/axis"},
-    "ui/thickness": {*_BELOW, "ui/base", "ui/settings", "ui/axis"},
-    "ui/panels": {*_BELOW, "ui/base", "ui/settings", "ui/axis", "ui/skeleton"},
-}
-MAY_IMPORT["ui"] = {*_BELOW, *(room for room in MAY_IMPORT if room.startswith("ui/"))}
+SPAN = re.compile(r"`([^`\n]+)`")
+
+
+def rows(page, head):
+    """The cells of a table of the docs, by how its first line begins."""
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    table = text[text.index(head) :].partition("\n\n")[0].splitlines()[2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
+
+
+def table(language):
+    """{room: what it sees, in words}, as architecture.md has it."""
+    cells = rows("architecture.md", f"| room of {language} |")
+    return {SPAN.findall(room)[0]: sees for room, _, sees in cells}
+
+
+ROOMS = table("Python")
+CORE = {room for room in ROOMS if room.split("/")[0] == "core"}
+BRIDGE = {room for room in ROOMS if room.split("/")[0] == "bridge"}
+
+
+def may_import(room, sees):
+    """Rooms of core are named without it, and all see `core` and `core/machine`; "" is the package itself."""
+    seen = {f"core/{name}" if f"core/{name}" in CORE else name for name in SPAN.findall(sees)}
+    seen |= {"core", "core/machine"} | (CORE if "all of `core`" in sees else set())
+    seen |= BRIDGE if "all of `bridge`" in sees else set()
+    return seen | ({""} if room not in CORE or room in {"core/axis", "core/batch"} else set())
+
+
+# The rooms that each room may import besides itself.
+MAY_IMPORT = {room: may_import(room, sees) for room, sees in ROOMS.items()}
+MAY_IMPORT |= {"core": set(), "core/machine": {"core", "lib"}}
 
 
 # --- Python
@@ -240,29 +221,19 @@ def users_of(*prefixes):
 
 MEDIAL = NATIVE / "medial"
 # The rooms that each room of the core may include besides itself: the paper's pipeline, read downwards.
-MAY_INCLUDE = {
-    "base": set(),
-    "mesh": {"base"},
-    "delaunay": {"base"},
-    "inside": {"base", "delaunay"},
-    "axis": {"base", "delaunay", "inside"},
-    "cocone": {"base", "delaunay", "inside", "axis"},
-    "sampling": {"base", "inside"},
-    "walls": {"base", "delaunay", "axis", "sampling"},
-    "thickness": {"base", "delaunay", "inside", "axis", "walls"},
-    "remesh": {"base"},
-    "collapse": {"base", "delaunay", "inside", "axis", "walls"},
-    "exact": {"base", "walls", "remesh", "collapse"},
-    "levels": {"base", "delaunay", "inside", "axis", "walls", "remesh", "collapse", "exact"},
-    "structure": {"base"},
-    "reduce": {"base"},
-    "cover": {"base", "inside", "reduce"},
-    "scan": {"base"},
-    ".": {
-        *("base", "delaunay", "inside", "axis", "thickness", "cocone", "sampling", "walls"),
-        "levels",
-    },  # the analysis, on top
+MAY_INCLUDE = {room: set(SPAN.findall(sees)) for room, sees in table("the core").items()}
+ON_TOP = {
+    "base",
+    "delaunay",
+    "inside",
+    "axis",
+    "thickness",
+    "cocone",
+    "sampling",
+    "walls",
+    "levels",
 }
+MAY_INCLUDE["."] = ON_TOP  # the analysis
 
 
 # The words that every room may use, and the public headers that only those who make what is in them see.

@@ -187,12 +187,6 @@ def test_each_part_in_a_program():
         medial_axis.compute_each_part(THREE[0], np.zeros((0, 3), int))
 
 
-def test_a_wavy_sheet_is_left_out():
-    points, triangles = wavy()
-    parts = split(Shape(*meshes.join(cube(), (points + 5.0, triangles))), Settings())
-    assert [part.number for part in parts.parts] == [1] and parts.count == 2
-
-
 def test_each_part_can_be_cancelled_and_watched():
     progress = medial_axis.Progress()
     medial_axis.compute_each_part(*THREE, progress=progress, sampling="surface", samples=800)

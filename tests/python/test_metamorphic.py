@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from support import inputs, meshes, shapes
+from support import inputs, meshes, messy, shapes
 
 pytestmark = pytest.mark.oracle
 
@@ -164,11 +164,11 @@ def test_negative_zero_is_zero(medial):
 def test_duplicates_keep_a_mesh_closed(medial):
     """A seam of doubled vertices, as every UV-mapped mesh has after import."""
     vertices, triangles = meshes.jitter(meshes.icosphere(2), 1e-2)
-    soup = vertices[triangles].reshape(-1, 3)
-    analysis = medial.MedialAnalysis(soup, np.arange(len(soup), dtype=np.int32).reshape(-1, 3))
+    soup = messy.soup((vertices, triangles))
+    analysis = medial.MedialAnalysis(*soup)
     plain = medial.MedialAnalysis(vertices, triangles)
     assert analysis.closed and analysis.boundary_edges == 0
-    assert analysis.duplicates == len(soup) - len(vertices)
+    assert analysis.duplicates == len(soup[0]) - len(vertices)
     assert sorted(analysis.side.tolist()) == sorted(plain.side.tolist())
 
 

@@ -463,12 +463,7 @@ def star(tips, thickness):
     """A plate of the shape of a star, from the middle to 0.5."""
     angle = np.pi * np.arange(2 * tips) / tips
     rim = np.column_stack((np.cos(angle), np.sin(angle))) * np.tile((0.5, 0.25), tips)[:, None]
-    top, bottom = (np.column_stack((rim, np.full(len(rim), z))) for z in (thickness, 0.0))
-    points = np.concatenate((bottom, top, [(0, 0, 0), (0, 0, thickness)]))
-    i, up = np.arange(len(rim)), len(rim)
-    j, low = np.roll(i, -1), 0 * i + 2 * up
-    faces = (j, i, low), (i + up, j + up, low + 1), (i, j, j + up), (i, j + up, i + up)
-    return points, np.concatenate([np.column_stack(each) for each in faces])
+    return mid_surfaces.fanned_plate(rim, thickness)
 
 
 @pytest.mark.parametrize(
@@ -535,21 +530,18 @@ def test_a_sheet_without_thickness_is_none():
     assert middle._with_volume(made, np.array([0.1, 0.0, 0.1])) is made
 
 
-def test_more_volume_than_the_solid_has_is_told():
+def test_more_volume_than_the_solid_has_and_less_are_told():
     (said,) = middle._left_out(1.06, 0.1, 0.01)
     assert "106 % of the volume" in said
     assert middle._left_out(1.04, 0.1, 0.01) == ()
+    # All of it is thin, so what is missing is not said to be thick.
+    (said,) = middle._left_out(0.9, 0.005, 0.03)
+    assert "tips that are narrower than samples are apart, 0.03" in said
 
 
 def test_tips_that_are_narrower_than_samples_are_apart_are_reached():
     found = sheets_of(star(12, 0.005), Settings(samples=1000))
     assert found.share == pytest.approx(1.0) and np.median(found.thickness) == pytest.approx(0.005)
-
-
-def test_what_samples_miss_is_told():
-    """All of it is thin, so what is missing is not said to be thick."""
-    (said,) = middle._left_out(0.9, 0.005, 0.03)
-    assert "tips that are narrower than samples are apart, 0.03" in said
 
 
 def test_a_sheet_that_touches_itself_is_divided():

@@ -94,6 +94,7 @@ def test_message_of_a_broken_file_names_the_file(file, tmp_path, copy):
             native.load()
         except NativeModuleError as error:
             print(error)
+        assert "that loads" in native.problem(), "the panel must not try again at every draw"
         """
     )
     assert " ".join(said).startswith("Expected a compiled module for")

@@ -60,6 +60,7 @@ def test_the_largest_numbers():
     ends = np.array([(1.7e308, -1.7e308, 0.0), (-1.7e308, 1.7e308, 0.0)])
     assert near(ends, ends[:1], 1e300).tolist() == [True, False]
     assert nearest(ends[::-1], ends).tolist() == [1, 0]
+    assert nearest(np.zeros((2, 3)), np.zeros((5, 3))).tolist() == [0, 0]
 
 
 def test_rows_that_the_module_merged_belong_to_the_nearest_sample():

@@ -16,10 +16,11 @@ from medial_axis.core.samples.sample_spacing import Amount
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.shape.shape import Shape
+from scipy.spatial import cKDTree
 from support import meshes, thin_solids
 from support.measure import polygons
 from support.readers import area_of
-from support.thick_meshes import pipe, shell
+from support.thick_meshes import block, pipe, shell
 
 PLATES = thin_solids.plate(0.01), thin_solids.plate(1e-4), thin_solids.profile_t(0.002)
 
@@ -112,6 +113,72 @@ def test_a_second_pass_follows_curved_walls():
     found = inside(solid.mesh, pairs=True, samples=4000)
     assert tuple(found.axis.level.betti) == solid.betti
     assert 4500 < len(found.chosen.samples.points) < 60_000
+
+
+def sampled_in_pairs(mesh, **options):
+    return native.load().sample_surface(*mesh, pairs=True, **{"count": 2000} | options)
+
+
+def share_with_partners(samples):
+    named = np.flatnonzero(samples.partner >= 0)
+    return len(np.union1d(named, samples.partner[named])) / len(samples.points)
+
+
+def ways_of_pairs(samples):
+    named = samples.partner >= 0
+    return named, samples.points[named] - samples.points[samples.partner[named]]
+
+
+@pytest.mark.parametrize("thickness", [0.03, 0.01, 1e-3, 1e-5])
+def test_every_sample_of_a_plate_is_opposite_its_partner(thickness):
+    samples = sampled_in_pairs(thin_solids.turned(thin_solids.plate(thickness).mesh))
+    assert share_with_partners(samples) == 1.0
+    apart = np.linalg.norm(ways_of_pairs(samples)[1], axis=1)
+    np.testing.assert_allclose(apart, thickness, rtol=0.02, atol=2e-7)
+    nearest = cKDTree(samples.points).query(samples.points, 2)[0][:, 1]
+    assert thickness != 0.01 or nearest.min() > 0.9 * 0.01, "none takes the place of a corner"
+
+
+def test_thick_solids_are_sampled_without_partners():
+    cube = thin_solids.turned(block(1, 1, 1))
+    samples = sampled_in_pairs(cube)
+    assert (samples.partner == -1).all()
+    plain = native.load().sample_surface(*cube, count=2000)
+    assert len(samples.points) == pytest.approx(len(plain.points), abs=40)
+
+
+def test_partners_on_curved_walls_lie_along_the_normals():
+    outer, inner = (meshes.torus(1.0, small, 64, 32) for small in (0.4, 0.39))
+    samples = sampled_in_pairs(meshes.join(outer, meshes.flip(inner)), count=6000, smooth=True)
+    assert share_with_partners(samples) > 0.99
+    named, ways = ways_of_pairs(samples)
+    along = np.einsum("ij,ij->i", ways, samples.normals[named]) / np.linalg.norm(ways, axis=1)
+    assert along.min() > 0.9995
+
+
+def test_samples_of_a_long_edge_follow_a_small_spacing_next_to_large_ones():
+    """The smallest spacing is in the middle of no step of a coarse division of the edge."""
+    points, triangles = block(1, 1, 1)
+    start, along = points[0], np.eye(3)[0] * -2 * points[0, 0]
+    spacings = np.where(np.arange(101) == 12, 0.002, 0.5)
+    sites = start + np.linspace(0.0, 1.0, 101)[:, None] * along
+    samples = native.load().sample_surface(points, triangles, sizing=(sites, spacings), pairs=True)
+    share = (samples.points - start) @ along
+    off = np.linalg.norm(samples.points - start - share[:, None] * along, axis=1)
+    at = np.sort(share[off < 1e-5])
+    far = np.abs(at - 0.12)
+    assert len(at) > 20
+    assert (np.diff(at) < 1.3 * (0.002 + 0.3 * np.maximum(far[1:], far[:-1]))).all()
+
+
+def test_partners_have_to_fit_the_points(medial):
+    mesh = thin_solids.plate(0.01).mesh
+    samples = sampled_in_pairs(mesh, count=500)
+    analysis = medial.MedialAnalysis(samples.points, mesh[1], vertices=mesh[0])
+    few = samples.partner[:-1]
+    for wrong in (few, np.append(few, np.int32(len(samples.points)))):
+        with pytest.raises(medial.InvalidInputError):
+            analysis.hierarchy(partners=wrong)
 
 
 def test_without_the_option_no_sample_has_a_partner():

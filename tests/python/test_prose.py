@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Comments and docstrings are whole sentences: none begins as a clause without its subject.
-
-python3 tests/python/test_prose.py prints every place that breaks the rule, their number in each folder, and how often
-words of a private dialect occur in comments, docstrings and pages. The words are only counted: each has good uses.
-"""
+"""Comments and docstrings are whole sentences: none begins as a clause without its subject."""
 
 import ast
 import io
 import re
 import tokenize
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -23,8 +18,6 @@ CPP = ("native", "tests", "lab")
 RIDDLE = re.compile(
     r"(Of|That of|Those|What|Whose|Has)\b(?!-)|(Where)\b(?! there\b)[^.,:;]*\bthere\b",
 )
-HOUSE_WORDS = "without a word", "known by", "as far as", "beside", "stands?", "told", "asked for"
-HOUSE_WORDS += "faults?", "says of"
 
 # A string is matched before a comment, so that neither hides in the other.
 CPP_TOKEN = re.compile(
@@ -165,27 +158,3 @@ def test_consecutive_lines_are_one_comment():
         Comment(2, "below it goes on"),
         Comment(5, "apart"),
     ]
-
-
-def house_words() -> Counter:
-    texts = [comment.text for _, comment in comments_of_all_files()]
-    pages = [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md")]
-    text = "\0".join([*texts, *(path.read_text(encoding="utf-8") for path in pages)])
-    return Counter({word: len(re.findall(rf"\b{word}\b", text)) for word in HOUSE_WORDS})
-
-
-def print_report() -> None:
-    places = riddles()
-    for place in places:
-        print(message(*place))
-    folders = Counter("/".join(path.parts[:2][: len(path.parts) - 1]) for path, _, _ in places)
-    print(f"\n{len(places)} comments without a subject")
-    for folder, count in sorted(folders.items()):
-        print(f"{count:6}  {folder}")
-    print("\nwords of the house")
-    for word, count in house_words().most_common():
-        print(f"{count:6}  {word}")
-
-
-if __name__ == "__main__":
-    print_report()

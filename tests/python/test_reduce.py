@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small medial meshes: topology by an independent count, exact shapes, solids measured by brute force, files."""
 
-import itertools
 from dataclasses import replace
 
 import medial_axis
@@ -16,6 +15,7 @@ from medial_axis.core.files.write import export_axis
 from medial_axis.core.machine.progress import Progress
 from medial_axis.core.rebuild.reduce import reduce_axis, reduced_difference
 from support import meshes, topology
+from support.reference import betti_numbers
 from support.thick_meshes import ellipsoid
 
 pytestmark = pytest.mark.oracle
@@ -25,21 +25,7 @@ NO_TRIANGLES = np.zeros((0, 3), np.int32)
 
 
 def betti(vertices, triangles, edges):
-    """Components, tunnels and cavities over the field of two elements, by elimination of columns."""
-    sides = [list(itertools.combinations(sorted(t), 2)) for t in triangles.tolist()]
-    pairs = {*itertools.chain(*sides), *(tuple(sorted(pair)) for pair in edges.tolist())}
-    filled, joined = rank(map(set, sides)), rank(map(set, pairs))
-    return vertices - joined, len(pairs) - joined - filled, len(sides) - filled
-
-
-def rank(columns):
-    lowest = {}
-    for column in columns:
-        while column and max(column) in lowest:
-            column = column ^ lowest[max(column)]
-        if column:
-            lowest[max(column)] = column
-    return len(lowest)
+    return betti_numbers(vertices, triangles.tolist(), edges.tolist())
 
 
 def grid(along=13, across=9, radius=0.3):

@@ -10,8 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from medial_axis.core.axis import structure as of_axis
 from support import meshes
 from support.shapes import SHAPES
+from support.thick_meshes import block
 
 TORUS = meshes.torus(1.0, 0.4, 48, 24)
 BALL = meshes.icosphere(3)
@@ -66,6 +68,34 @@ def hierarchy(medial, scale, progress=None, **options):
     return named(found, VALUES) | named(level, ("vertices", "radius", "exact", "wires"))
 
 
+def thickness(medial, scale, progress=None, **options):
+    analysis, shape = analysis_of(medial, scale, **options), SHAPES["torus"]
+    normals = scale * shape.normals(shape.random_sample(4000, 1))
+    found = analysis.thickness(normals, progress=progress)
+    scan = analysis.thickness(mode=medial.ThicknessMode.SCAN, progress=progress)
+    return {"values": found.values, "measured": found.measured, "scan": scan.values}
+
+
+def inscribed_balls(medial, scale, **options):
+    balls = medial.BallFaces(scale * TORUS[0], TORUS[1], smooth=True, **options)
+    face = np.arange(0, len(TORUS[1]), 5, dtype=np.int32)
+    places, spacing = scale * TORUS[0][TORUS[1][face]].mean(axis=1), np.full(len(face), 0.05)
+    found = balls.inscribed_balls(places, face, scale * spacing, **options)
+    return dict(zip(("length", "wall"), found))
+
+
+FIELDS = ["edges" if name == "facet_edges" else name for name in of_axis.FIELDS]
+
+
+def structure(medial, scale, threads=0):
+    level = analysis_of(medial, scale, "box").hierarchy().extract()
+    names = ("vertices", "radius", "face_offsets", "face_vertices", "generators", "wires")
+    patches = np.random.default_rng(0).integers(0, 4, (4000, 2), dtype=np.int32)
+    patches[::3, 1] = -1
+    more = {"patches": np.sort(patches)[:, ::-1].copy(), "spacing": np.full(4000, 0.05 * scale)}
+    return named(medial.structure(**named(level, names), **more, threads=threads), FIELDS)
+
+
 def tight_cocone(medial, scale, **options):
     found = medial.TightCocone(scale * SHAPES["torus"].random_sample(3000, 0), **options)
     return named(found, ("triangles", "flat", "good", "on_surface"))
@@ -80,6 +110,12 @@ def samples_of_edges(medial, scale, **options):
     vertices, triangles = meshes.box()
     found = medial.sample_surface(scale * vertices, triangles, count=3000, **options)
     return named(found, ("points", "kind"))
+
+
+def samples_in_pairs(medial, scale, **options):
+    vertices, triangles = block(1.0, 1.0, 1e-3)
+    found = medial.sample_surface(scale * vertices, triangles, count=3000, pairs=True, **options)
+    return named(found, ("points", "partner"))
 
 
 def closing(medial, scale, **options):
@@ -162,6 +198,7 @@ def reduced(medial, scale, **options):
     return dict(zip(names, medial.reduce_sphere_mesh(*mesh, 50, **options), strict=True))
 
 
+UNITS = {"area": 2, "radius": 1, "length": 1}
 FIGURES = {"chosen": 0, "radii": 1, "covered": 0, "outside": 1, "farthest": 1}
 STAGES = {
     "sides by normals": Stage(sides_by_normals, {"edges": 0, "side": 0}),
@@ -171,9 +208,13 @@ STAGES = {
     "hierarchy": Stage(
         hierarchy, {**dict.fromkeys((*VALUES, "wires"), 0), "vertices": 1, "radius": 1, "exact": 1}
     ),
+    "thickness": Stage(thickness, {"values": 1, "measured": 0, "scan": 1}),
+    "inscribed balls": Stage(inscribed_balls, {"length": 1, "wall": 1}),
+    "structure": Stage(structure, {name: UNITS.get(name.split("_")[-1], 0) for name in FIELDS}),
     "tight cocone": Stage(tight_cocone, {"triangles": 0, "flat": 0, "good": 0, "on_surface": 0}),
     "samples": Stage(samples, {"points": 1, "kind": 0, "triangle": 0}),
     "samples of edges": Stage(samples_of_edges, {"points": 1, "kind": 0}),
+    "samples in pairs": Stage(samples_in_pairs, {"points": 1, "partner": 0}),
     "closing samples": Stage(closing, {"points": 1, "radius": 1}),
     "buried": Stage(buried, {"found": 0}),
     "distances": Stage(distances, {"distance": 1}),
@@ -189,7 +230,8 @@ for cover in ("INSIDE", "AROUND"):
     for refine in (True, False):
         run = partial(balls, mode=cover, refine=refine)
         STAGES[f"balls {cover}, refined: {refine}"] = Stage(run, FIGURES)
-WATCHED = [name for name in STAGES if name not in ("outward faces", "scan", "smooth vertices")]
+SILENT = ("outward faces", "scan", "smooth vertices", "structure", "inscribed balls")
+WATCHED = [name for name in STAGES if name not in SILENT]
 WATCHED = [name for name in WATCHED if name not in ("distances", "least capsules", "buried")]
 
 

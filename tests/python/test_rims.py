@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from support.crisp_measures import rim_length, rim_turns
 
 pytestmark = pytest.mark.oracle
 
@@ -14,50 +15,21 @@ TURN = {"oblate": 13.0, "ellipsoid": 14.0, "box": 43.0}
 OBLATE_RIM = 2 * math.pi * 0.75
 
 
-def rim_edges(level):
-    """(r, 2) edges with exactly one polygon."""
-    corners, offsets = level.face_vertices, level.face_offsets
-    following = np.roll(corners, -1)
-    following[offsets[1:] - 1] = corners[offsets[:-1]]
-    pairs = np.sort(np.column_stack((corners, following)), axis=1)
-    edges, times = np.unique(pairs, axis=0, return_counts=True)
-    return edges[times == 1]
-
-
-def mean_turn(places, edges):
-    """In degrees, at vertices with two rim edges."""
-    at = {}
-    for a, b in edges.tolist():
-        at.setdefault(a, []).append(b)
-        at.setdefault(b, []).append(a)
-    turns = []
-    for v, others in at.items():
-        if len(others) != 2:
-            continue
-        into, out = places[v] - places[others[0]], places[others[1]] - places[v]
-        size = np.linalg.norm(into) * np.linalg.norm(out)
-        if size > 0:
-            turns.append(math.degrees(math.acos(np.clip(into @ out / size, -1, 1))))
-    return np.mean(turns)
-
-
 @pytest.mark.parametrize("name", TURN)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rims_are_no_saws(sampled, name, seed):
     _, _, hierarchy = sampled(name, 8000, seed)
     level = hierarchy.even(**CLEAN).extract(relaxed=True)
     facets = hierarchy.extract(**CLEAN)
-    assert mean_turn(facets.vertices, rim_edges(facets)) > 45
-    assert mean_turn(level.vertices, rim_edges(level)) < TURN[name]
+    assert rim_turns(facets).mean() > 45
+    assert rim_turns(level).mean() < TURN[name]
 
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rim_of_an_oblate_has_its_length(sampled, seed):
     _, _, hierarchy = sampled("oblate", 8000, seed)
     level = hierarchy.even(**CLEAN).extract(relaxed=True)
-    a, b = rim_edges(level).T
-    length = np.linalg.norm(level.vertices[a] - level.vertices[b], axis=1).sum()
-    assert 0.98 < length / OBLATE_RIM < 1.05
+    assert 0.98 < rim_length(level) / OBLATE_RIM < 1.05
 
 
 def test_balls_of_moved_vertices_are_empty(sampled):

@@ -16,6 +16,7 @@ from medial_axis.core.shape.triangles import area_vectors
 from support.data import DATA
 from support.inputs import rotation
 from support.meshes import box, icosphere, torus
+from support.messy import soup
 
 
 @cache
@@ -25,12 +26,6 @@ def sphere(noise, subdivisions=5):
     edge = float(np.linalg.norm(points[triangles[0, 0]] - points[triangles[0, 1]]))
     errors = np.random.default_rng(1).normal(size=(len(points), 1))
     return points * (1.0 + noise * edge * errors), np.asarray(triangles, np.int32)
-
-
-def apart(points, triangles):
-    """The faces, each with vertices of its own."""
-    rows = np.arange(triangles.size, dtype=np.int32)
-    return points[triangles].reshape(-1, 3), rows.reshape(-1, 3)
 
 
 def cubes(cells):
@@ -98,7 +93,7 @@ def test_cubes_stay_cubes(kind):
     if kind == "turned":
         points = np.float64(np.float32(points @ rotation(1)))
     if kind == "apart":
-        points, triangles = apart(points, triangles)
+        points, triangles = soup((points, triangles))
     if kind == "with grass":
         blade = points[triangles[:20]].reshape(-1, 3) @ rotation(1)
         triangles = np.vstack([triangles, len(points) + np.arange(60).reshape(-1, 3)])
@@ -141,7 +136,7 @@ def test_off_and_a_wrap_leave_the_faces():
 def test_faces_without_common_corners_are_one_surface():
     """Each triangle has its own corners, as in STL files; those in one place stay in one place."""
     points, triangles = sphere(0.3)
-    _, found, _ = prepared(apart(points, triangles))
+    _, found, _ = prepared(soup((points, triangles)))
     assert len(np.unique(found.points, axis=0)) == len(points)
     assert off(found.points) < 0.45 * off(points)
 

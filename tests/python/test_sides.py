@@ -7,7 +7,7 @@ Only a facet with a vertex on the surface itself, where the winding number jumps
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from support import distance, meshes, reference
+from support import distance, meshes, reference, topology
 from support.messy import some_flipped
 
 pytestmark = pytest.mark.oracle
@@ -157,7 +157,7 @@ def test_vertices_that_are_not_valid(medial, vertices, triangles, word):
 def test_closed_and_boundary_edges(medial, name):
     points, triangles = ALL[name]
     analysis = analyse(medial, points, triangles)
-    assert analysis.boundary_edges == reference.boundary_edges(triangles)
+    assert analysis.boundary_edges == topology.boundary_edges(triangles)
     assert analysis.closed == (name in CLOSED)
 
 

@@ -2,15 +2,15 @@
 """The typed stub and the module say the same: names, parameters, defaults; in both directions."""
 
 import ast
-import enum
 import inspect
 import re
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from medial_axis.core.axis.medial_axis import MedialAxis
-from medial_axis.core.settings import Settings
+from medial_axis.core.settings import Criteria, Rule, Settings, Side, SidesFrom
 
 FOLDER = Path(__file__).resolve().parents[2] / "native" / "python"
 NONE = "no default"
@@ -167,30 +167,22 @@ def test_enum_values(compiled):
     assert count > 2
 
 
-def test_defaults_of_the_thresholds(medial):
-    """Stated once in the stub's text: pi/8, 8, BOTH, EITHER, ANGLE_OR_RATIO, off."""
-    for function in (medial.MedialAnalysis.select, medial.MedialAnalysis.extract):
-        line = signature_line(function)
-        assert default_in(line, "theta") == pytest.approx(3.141592653589793 / 8, rel=1e-15)
-        assert default_in(line, "rho") == 8.0
-        for value in ("BOTH", "EITHER", "ANGLE_OR_RATIO"):
-            assert value in line
-        assert "limit_set: bool = False" in line
-
-
-def default_in(line, name):
-    return float(re.search(rf"{name}: [\w.]+ = ([\d.]+)", line)[1])
-
-
 def test_settings_of_the_add_on_have_the_same_defaults(medial):
-    line = signature_line(medial.MedialAnalysis.extract)
-    assert default_in(line, "theta") == pytest.approx(Settings().theta, rel=1e-15)
-    assert default_in(line, "rho") == Settings().rho
-    for choice in ("rule", "criteria"):
-        value = getattr(Settings(), choice)
-        assert value.name in line
-        assert set(members(MEDIAL.classes[type(value).__name__])) == {m.name for m in type(value)}
-        assert isinstance(value, enum.Enum)
+    default = Settings()
+    assert (default.theta, default.rho) == (pytest.approx(np.pi / 8, rel=1e-15), 8.0)
+    analysis = medial.MedialAnalysis
+    lines = [signature_line(f) for f in (analysis.extract, analysis.select, medial.sample_surface)]
+    thresholds, of_samples = ("theta", "rho"), ("sharp_angle", "keep_vertices", "seed")
+    for line, names in zip(
+        lines, ((*thresholds, "limit_set"), thresholds, of_samples), strict=True
+    ):
+        for name in names:
+            assert re.search(rf"\b{name}: [^=]*= {getattr(default, name)!r}\b", line), name
+    assert all(name in lines[0] for name in ("Side.BOTH", default.rule.name, default.criteria.name))
+    others = {Side.AUTOMATIC, SidesFrom.WRAP}  # which makes other faces
+    for kind in (Rule, Criteria, Side, SidesFrom):
+        known = set(members(MEDIAL.classes[kind.__name__]))
+        assert {member.name for member in set(kind) - others} <= known
 
 
 def test_the_fields_of_the_result_are_those_of_the_add_on(medial):

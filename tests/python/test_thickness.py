@@ -315,6 +315,10 @@ def test_stairs_against_rays():
         parts = find_thin_parts(found, limit)
         assert parts.patches[0].minimum == pytest.approx(0.1, rel=0.01)
         assert least * 0.97 < parts.area < most
+    # Areas grow with the limit; what is thin at a limit is so at a larger one.
+    parts = [find_thin_parts(found, limit) for limit in (0.05, 0.15, 0.25, 0.35)]
+    assert np.all(np.diff([p.area for p in parts]) > 0)
+    assert parts[-1].share == pytest.approx(1.0, abs=1e-3)
 
 
 def test_gap_between_two_boxes():
@@ -325,6 +329,11 @@ def test_gap_between_two_boxes():
     assert parts.area == pytest.approx(2 * 0.7, rel=0.01)
     assert [p.minimum for p in parts.patches] == pytest.approx([0.05] * 2, rel=0.01)
     assert np.isinf(found.lengths[np.abs(found.points[:, 2] - 0.65) < 1e-9]).mean() > 0.9
+    up = np.round(topology.vector_areas(*GAP)[:, 2], 9)
+    middle = GAP[0][GAP[1]].mean(axis=1)[:, 2]
+    facing = (np.abs(middle - np.where(up > 0, 0.2, 0.25)) < 1e-9) & (up != 0)
+    assert facing.sum() == 4
+    np.testing.assert_array_equal(parts.patch_of_faces >= 0, facing)
 
 
 def test_a_solid_that_faces_nothing_has_no_gap():
@@ -396,15 +405,6 @@ def test_the_minimum_is_of_a_patch_and_not_of_a_point():
     assert spoiled.minimum >= 0.35 and find_thin_parts(spoiled, 0.3).patches == ()
 
 
-def test_faces_are_thin_where_their_samples_are():
-    parts = find_thin_parts(measure(GAP, between=Between.GAP), 0.06)
-    up = np.round(topology.vector_areas(*GAP)[:, 2], 9)
-    middle = GAP[0][GAP[1]].mean(axis=1)[:, 2]
-    facing = (np.abs(middle - np.where(up > 0, 0.2, 0.25)) < 1e-9) & (up != 0)
-    assert facing.sum() == 4
-    np.testing.assert_array_equal(parts.patch_of_faces >= 0, facing)
-
-
 def test_patches_come_thinnest_first_and_small_ones_can_be_left_out():
     small = block(0.5, 0.5, 0.05, (3, 0, 0)), block(0.2, 0.2, 0.03, (5, 0, 0))
     found = measure(join(block(1, 1, 0.2), *small), Settings(samples=60_000))
@@ -422,14 +422,6 @@ def test_grey_leaves_out_what_no_wall_faces():
     found = measure(BOX, edges=Edges.GREY)
     assert np.isfinite(found.lengths).mean() < 0.2
     np.testing.assert_allclose(found.lengths[np.isfinite(found.lengths)], 0.4, rtol=0.01)
-
-
-def test_more_limits_need_no_other_measurement():
-    """Areas grow with the limit; what is thin at a limit is so at a larger one."""
-    found = measure(STAIRS, Settings())
-    parts = [find_thin_parts(found, limit) for limit in (0.05, 0.15, 0.25, 0.35)]
-    assert np.all(np.diff([p.area for p in parts]) > 0)
-    assert parts[-1].share == pytest.approx(1.0, abs=1e-3)
 
 
 # --- clouds, noise, open meshes
@@ -533,23 +525,13 @@ def test_arguments_are_checked(medial):
             analysis.thickness(**bad)
     with pytest.raises(medial.InvalidInputError, match="INNER"):
         analysis.thickness(vertices, side=medial.Side.BOTH)
+    with pytest.raises(medial.InvalidInputError):
+        medial.MedialAnalysis(vertices, sides=medial.SidesFrom.NONE).thickness(vertices)
     found = analysis.thickness(vertices)
     assert len(found.values) == len(found.measured) == len(analysis.samples)
     assert found.measured.dtype == bool and not found.values.flags.writeable
-    progress = medial.Progress()
-    progress.cancel()
-    with pytest.raises(medial.Cancelled):
-        analysis.thickness(vertices, progress=progress)
-
-
-def test_length_of_normals_and_threads_do_not_matter(medial):
-    vertices, triangles = ellipsoid(subdivisions=4)
-    normals = vertices / np.square((1.0, 0.7, 0.5))
-    values = set()
-    for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0)):
-        analysis = medial.MedialAnalysis(vertices, triangles, threads=threads)
-        values.add(analysis.thickness(factor * normals).values.tobytes())
-    assert len(values) == 1
+    # The length of normals does not matter.
+    assert found.values.tobytes() == analysis.thickness(1024.0 * vertices).values.tobytes()
 
 
 def test_nearest_and_patches(medial):
@@ -561,6 +543,7 @@ def test_nearest_and_patches(medial):
     triangles = np.array([(0, 1, 2), (5, 6, 7), (2, 3, 4)], np.int32)
     flags = np.ones(3, bool)
     assert medial.patches(triangles, flags, 8).tolist() == [0, 1, 0]
+    assert medial.patches(triangles, flags & [False, True, True], 8).tolist() == [-1, 0, 1]
     for bad in ((triangles, flags[:2], 8), (triangles, flags, 7)):
         with pytest.raises(medial.InvalidInputError):
             medial.patches(*bad)
@@ -587,6 +570,8 @@ def test_csv_has_a_row_per_vertex_then_one_per_other_point(tmp_path):
         [*point, length] for point, length in zip(found.points.tolist(), found.lengths, strict=True)
     )
     assert sum(row[5] for row in rows) == np.count_nonzero(~found.measured)
+    with pytest.raises(ExportError, match=r"\.csv, \.html, \.json or \.ply"):
+        export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")
 
 
 def test_json_says_where(tmp_path):
@@ -628,12 +613,6 @@ def test_ply_is_the_measured_surface(tmp_path):
     np.testing.assert_array_equal(faces["patch"], parts.patch_of_triangles)
     thin, colour = np.isfinite(found.lengths), vertices["colour"]
     assert (colour[thin, 0] > 200).all() and len(np.unique(colour[~thin], axis=0)) == 1
-
-
-def test_other_formats_are_refused(tmp_path):
-    found = measure(BOX)
-    with pytest.raises(ExportError, match=r"\.csv, \.html, \.json or \.ply"):
-        export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")
 
 
 def test_the_length_of_a_triangle_is_the_least_wall_at_its_corners():

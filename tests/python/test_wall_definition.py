@@ -12,7 +12,8 @@ from medial_axis.core.thickness.thicken import thicken
 from medial_axis.core.thickness.thickness import measure_thickness
 from medial_axis.core.thickness.thin_parts import find_thin_parts
 from support import topology
-from support.meshes import join, shape_of, write_off
+from support.distance import to_triangle
+from support.meshes import join, shape_of, torus, write_off
 from support.plates import prism, wedge
 from support.thick_meshes import block, lathe, shell
 from support.wall_truth import distances, slanted_plate, tube, turned, turned_part, walls
@@ -109,6 +110,54 @@ SLANTED_BOXES = tuple(
 def test_the_corner_of_a_reflex_edge_is_no_wall_to_what_it_reaches_through():
     """The flat one has walls of 0.659, between a side of the cube and a reflex edge."""
     assert measure(SLANTED_BOXES, Settings()).minimum > 0.65
+
+
+def diameters_by_halving(mesh, places, normals):
+    """(n,) of balls, until no triangle is inside; those of the place's own plane count not."""
+    own = topology.unit_normals(*mesh) @ normals.T > 0.999
+    corners = np.tile(mesh[0][mesh[1]], (len(places), 1, 1))
+    low, high = np.zeros(len(places)), np.full(len(places), 2.0)
+    for _ in range(60):
+        radius = (low + high) / 2
+        centres = np.repeat(places - radius[:, None] * normals, len(mesh[1]), axis=0)
+        away = to_triangle(centres, corners).reshape(len(places), -1)
+        free = np.where(own.T, np.inf, away).min(axis=1) >= radius
+        low, high = np.where(free, radius, low), np.where(free, high, radius)
+    return 2 * low
+
+
+L = [(0, 0), (1, 0), (1, 0.1), (0.1, 0.1), (0.1, 0.6), (0, 0.6)]
+SOLIDS = {
+    "plate": block(1, 0.7, 0.05),
+    "box": block(1, 0.7, 0.4),
+    "wedge": prism([(0, 0), (1, 0), (0.94, 0.34)], [(0, 1, 2)], 0.8),
+    "L": prism(L, [(0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5)], 0.8),
+}
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_balls_are_those_of_all_triangles(medial, name):
+    rng, (points, triangles) = np.random.default_rng(7), SOLIDS[name]
+    face = rng.integers(len(triangles), size=300).astype(np.int32)
+    places = np.einsum("ij,ijk->ik", rng.dirichlet((1, 1, 1), 300), points[triangles[face]])
+    balls = medial.BallFaces(points, triangles, smooth=False)
+    length, wall, _ = balls.inscribed_balls(places, face, np.full(300, 0.01))
+    normals = topology.unit_normals(points, triangles)[face]
+    truth = diameters_by_halving(SOLIDS[name], places, normals)
+    np.testing.assert_allclose(length, truth, rtol=1e-6, atol=1e-7)
+    assert (wall >= length).all()
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.5])
+def test_balls_in_a_tube_have_a_wall_opposite_everywhere(medial, turn):
+    """They touch faces all round, many of which are beside them and not opposite."""
+    points, triangles = torus(1.0, 0.4, 300, 150, turn)
+    face = np.arange(0, len(triangles), 37, dtype=np.int32)
+    given = points[triangles[face, 0]], face, np.full(len(face), 0.03)
+    found = medial.BallFaces(points, triangles, smooth=True).inscribed_balls(*given)
+    np.testing.assert_allclose(found[:2], 0.8, atol=1e-3)
+    nothing = medial.BallFaces(points, triangles[:1], smooth=True)
+    assert np.isinf(nothing.inscribed_balls(*(x[:1] for x in given))[:2]).all()
 
 
 def test_what_a_ball_touches_from_outside_is_no_wall(medial):

@@ -18,6 +18,7 @@ from medial_axis.core.samples.next_amount import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings, Side
 from support import meshes, thin_solids, topology
+from support.measure import following
 from support.meshes import shape_of
 from support.plates import prism
 from support.poses import random_turn
@@ -41,9 +42,7 @@ def plate(thickness, turned=False):
 def sheet_area(axis, turned=False):
     """The area of the facets, projected along the plate's normal."""
     where = axis.vertices @ TURN if turned else axis.vertices
-    corners, ends = where[axis.face_vertices], axis.face_offsets[1:]
-    after = np.arange(1, len(corners) + 1)
-    after[ends - 1] = axis.face_offsets[:-1]
+    corners, after = where[axis.face_vertices], following(axis)
     doubled = corners[:, 0] * corners[after, 1] - corners[:, 1] * corners[after, 0]
     facet = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
     return np.abs(np.bincount(facet, doubled, axis.facets)).sum() / 2
@@ -188,23 +187,6 @@ def test_the_report_has_the_share(tmp_path, capsys):
     report = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert report["missed"] > 0.8
     assert any("missing or torn" in text for text in report["warnings"])
-
-
-def test_distances_are_those_of_a_box(medial):
-    mesh = meshes.box((3, 3, 3), (1.0, 0.7, 0.4))
-    points = np.array([[0.1, 0.2, 0.4], [1.0, 0.1, 0.05], [0.3, -0.7, 0.1], [0.1, 0.2, 0.4]])
-    normals = np.array([[0, 0, 1.0], [1, 0, 0], [0, -1, 0], [0, 0, 0]])
-    found = medial.wall_distances(points, normals, np.full(4, 5.0), *mesh)
-    np.testing.assert_allclose(found, [0.8, 2.0, 1.4, np.inf])
-    short = medial.wall_distances(points, normals, np.full(4, 1.0), *mesh, threads=1)
-    np.testing.assert_allclose(short, [0.8, np.inf, np.inf, np.inf])
-
-
-def test_other_parts_of_the_solid_are_passed_through(medial):
-    box = meshes.box((2, 2, 2), (1.0, 1.0, 1.0))
-    both = meshes.join(box, (0.5 * box[0] + (0, 0, -1.2), box[1]))
-    point, normal = np.array([[0.1, 0.2, 1.0]]), np.array([[0, 0, 1.0]])
-    assert medial.wall_distances(point, normal, np.array([9.0]), *both) == pytest.approx(2.7)
 
 
 @pytest.mark.parametrize(

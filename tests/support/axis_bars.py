@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from . import crossings, measure, resampled, spikes
+from . import crossings, measure, resampled
+from .levels import facet_pieces
 from .meshes import Mesh
 from .shape_meshes import SHARP
 from .shapes import Shape
@@ -53,7 +54,7 @@ def measured(shape: Shape, mesh: Mesh, frame: Array, axis: Any, samples: int) ->
         len(axis.generators),
         *(scale * x for x in distances.row()),
         outside=int(np.sum(~crossings.inside(axis.vertices, *mesh))),
-        components=spikes.components(axis),
+        components=facet_pieces(axis),
         spike=float(off_axis(shape, vertices, resampled.spacing(shape.area, samples)).max()),
     )
 

@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .reference import rank
+
 LEVELS = 16  # of weight, in the fringe
 AT_ONCE = 1 / 1024  # of the diagonal: wires that are loose and no longer than this do not wait
 PER_ANCHOR = 9  # edges, at least, from one anchor of a front to the next
@@ -102,18 +104,6 @@ def betti(c: Complex) -> tuple[int, int, int]:
     d3 = [sum(1 << f for f, g in enumerate(c.generators) if p in g) for p in c.bubbles]
     r1, r2, r3 = (rank(rows) for rows in (d1, d2, d3))
     return len(c.position) - r1, len(c.edges) - r1 - r2, len(c.rings) - r2 - r3
-
-
-def rank(rows: list[int]) -> int:
-    pivots: dict[int, int] = {}
-    for row in rows:
-        while row:
-            high = row.bit_length()
-            if high not in pivots:
-                pivots[high] = row
-                break
-            row ^= pivots[high]
-    return len(pivots)
 
 
 class Collapse:

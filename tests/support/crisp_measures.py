@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import distance
+from . import distance, topology
 from .crisp_solids import Solid
 from .crossing_triangles import crossing_pairs
 from .folds import Rings
 from .levels import betti_of_mesh
+from .measure import following
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -63,12 +64,6 @@ class Output:
         )
         return self.vertices[rows]
 
-    def following(self) -> Ints:
-        """(c,) the corner after each one in its polygon."""
-        after = np.arange(1, len(self.face_vertices) + 1)
-        after[self.face_offsets[1:] - 1] = self.face_offsets[:-1]
-        return after
-
     def rings(self) -> Rings:
         return Rings(self.vertices, self.face_offsets, self.face_vertices, self.across)
 
@@ -108,7 +103,7 @@ class Found:
 
 def measured(solid: Solid, output: Output, samples: int) -> Found:
     size, cells = solid.diagonal, output.cells()
-    area, rings = facet_area(output), output.rings()
+    area, rings = topology.area(output.vertices, output.triangles), output.rings()
     return Found(
         samples=samples,
         facets=len(output.across),
@@ -145,7 +140,7 @@ def gap(solid: Solid, cells: Array, spacing: float) -> Spread | None:
 def rim_edges(output: Output) -> Ints:
     """(r, 2) edges of exactly one polygon."""
     corners = output.face_vertices
-    pairs = np.sort(np.column_stack((corners, corners[output.following()])), axis=1)
+    pairs = np.sort(np.column_stack((corners, corners[following(output)])), axis=1)
     edges, uses = np.unique(pairs, axis=0, return_counts=True)
     return edges[uses == 1]
 
@@ -168,11 +163,6 @@ def rim_turns(output: Output) -> Array:
     ways = ways[length.min(axis=1) > 1e-9 * np.linalg.norm(np.ptp(output.vertices, axis=0))]
     cosine = -np.einsum("vi,vi->v", *ways.transpose(1, 0, 2)) / np.linalg.norm(ways, axis=2).prod(1)
     return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
-
-def facet_area(output: Output) -> float:
-    a, b, c = output.vertices[output.triangles].transpose(1, 0, 2)
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
 
 def output_of(computation: Any, frame: Array, exact: bool = False) -> Output:

@@ -33,7 +33,7 @@ def _close_pairs(corners: Array):
     first = np.floor((low - low.min(axis=0)) / wide).astype(np.int64)
     count = np.floor((high - low.min(axis=0)) / wide).astype(np.int64) - first + 1
     owner = np.repeat(np.arange(len(corners)), count.prod(axis=1))
-    rank = _ranks(count.prod(axis=1))
+    rank = ranks(count.prod(axis=1))
     of = count[owner]
     steps = np.column_stack(
         (rank // (of[:, 1] * of[:, 2]), rank // of[:, 2] % of[:, 1], rank % of[:, 2])
@@ -51,12 +51,12 @@ def _pairs_of_cells(owner: Ints, sizes: Ints, low: Array, high: Array):
     cuts = np.searchsorted(ends, np.arange(PAIRS, ends[-1] + 1, PAIRS))
     for rows in np.split(np.arange(len(owner)), cuts):
         left = np.repeat(rows, behind[rows])
-        a, b = owner[left], owner[left + 1 + _ranks(behind[rows])]
+        a, b = owner[left], owner[left + 1 + ranks(behind[rows])]
         meet = np.all((low[a] <= high[b]) & (low[b] <= high[a]), axis=1)
         yield np.sort(np.column_stack((a, b))[meet], axis=1)
 
 
-def _ranks(counts: Ints) -> Ints:
+def ranks(counts: Ints) -> Ints:
     """0 .. counts[0] - 1, 0 .. counts[1] - 1, ..."""
     return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 

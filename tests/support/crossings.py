@@ -8,6 +8,8 @@ query, by the sign of one number, so that no ray slips through between them.
 import numpy as np
 from numpy.typing import NDArray
 
+from .crossing_triangles import ranks
+
 Array = NDArray[np.float64]
 Ints = NDArray[np.integer]
 
@@ -43,7 +45,7 @@ class _Cells:
         first, last = self._cell(boxes.min(axis=1)), self._cell(boxes.max(axis=1))
         wide = last - first + 1
         owner = np.repeat(np.arange(len(triangles)), wide.prod(axis=1))
-        rank = _ranks(wide.prod(axis=1))
+        rank = ranks(wide.prod(axis=1))
         cell = first[owner] + np.column_stack((rank // wide[owner, 1], rank % wide[owner, 1]))
         cell = cell[:, 0] * self.count + cell[:, 1]
         self.triangle = owner[np.argsort(cell, kind="stable")]
@@ -62,16 +64,11 @@ class _Cells:
         ends = np.cumsum(counts)
         for chunk in np.split(np.arange(len(rows)), np.searchsorted(ends, _steps(ends))):
             owner = np.repeat(chunk, counts[chunk])
-            yield rows[owner], self.triangle[self.start[cell[owner]] + _ranks(counts[chunk])]
+            yield rows[owner], self.triangle[self.start[cell[owner]] + ranks(counts[chunk])]
 
 
 def _steps(ends: Ints) -> Ints:
     return np.arange(PAIRS, ends[-1] if len(ends) else 0, PAIRS)
-
-
-def _ranks(counts: Ints) -> Ints:
-    """0 .. counts[0] - 1, 0 .. counts[1] - 1, ..."""
-    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def _crossings(queries: Array, corners: Array, triangles: Ints) -> Ints:

@@ -5,6 +5,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from .measure import following
+
 # Thresholds of sixteen levels, by every value and by several at once.
 SIXTEEN = [
     *({"sheet": s, "limb": c} for s in (0.0, 0.003, 0.01, 0.03) for c in (0.0, 0.04)),
@@ -100,16 +102,16 @@ def parts(count, pairs, there):
     return len(np.unique(labels[there]))
 
 
-def betti_of_mesh(level):
+def betti_of_mesh(level, wires=None):
     """(components, Euler characteristic) of a drawn level: vertices, edges of polygons and wires, polygons."""
-    corners, offsets = level.face_vertices, level.face_offsets
-    following = np.roll(corners, -1)
-    following[offsets[1:] - 1] = corners[offsets[:-1]]
-    pairs = np.concatenate((np.column_stack((corners, following)), level.wires))
-    edges = np.unique(np.sort(pairs, axis=1), axis=0)
+    corners = level.face_vertices
+    rims = np.column_stack((corners, corners[following(level)]))
+    edges = np.concatenate((rims, level.wires if wires is None else wires))
+    edges = np.unique(np.sort(edges, axis=1), axis=0)
+    assert (edges[:, 0] != edges[:, 1]).all()
     everything = np.ones(len(level.vertices), bool)
     pieces = parts(len(level.vertices), edges, everything) if len(level.vertices) else 0
-    return pieces, len(level.vertices) - len(edges) + len(level.generators)
+    return pieces, len(level.vertices) - len(edges) + len(level.face_offsets) - 1
 
 
 def facet_pieces(faces):

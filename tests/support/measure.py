@@ -31,6 +31,13 @@ def polygons(mesh) -> list[NDArray[np.int32]]:
     return np.split(mesh.face_vertices, mesh.face_offsets[1:-1])
 
 
+def following(mesh) -> NDArray[np.int64]:
+    """(c,) the corner after each one in its polygon."""
+    after = np.arange(1, len(mesh.face_vertices) + 1)
+    after[mesh.face_offsets[1:] - 1] = mesh.face_offsets[:-1]
+    return after
+
+
 def inner_facets(mesh, shape: Shape) -> NDArray[np.bool_]:
     """(f,) every vertex of the facet lies inside the solid."""
     inside = shape.inside(mesh.vertices)

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import thin_solids
-from .meshes import Mesh
+from .meshes import Mesh, revolved
+from .plates import prism
 from .thick_meshes import lathe
 from .thin_solids import union
 
@@ -161,36 +162,25 @@ def round_plate(sides=12, t=0.005):
     """A regular polygon of radius 0.5 as a plate, whose walls all round are one smooth wall."""
     turn = 2 * np.pi * np.arange(sides) / sides + 0.1
     rim = 0.5 * np.column_stack((np.cos(turn), np.sin(turn)))
-    points = [np.column_stack((rim, np.full(sides, z))) for z in (0.0, t)]
-    i, end = np.arange(sides), 0 * np.arange(sides) + 2 * sides
-    j = (i + 1) % sides
-    caps = (np.column_stack((j, i, end)), np.column_stack((i + sides, j + sides, end + 1)))
-    walls = (np.column_stack((i, j, j + sides)), np.column_stack((i, j + sides, i + sides)))
-    mesh = np.concatenate((*points, [(0, 0, 0), (0, 0, t)])), np.concatenate((*caps, *walls))
-    return _known((mesh[0], mesh[1].astype(np.int32)), t, (1, 0, 0), sheets=1)
+    return _known(fanned_plate(rim, t), t, (1, 0, 0), sheets=1)
+
+
+def fanned_plate(rim, t):
+    """A plate over a polygon round the origin, whose faces are fans of triangles round their middles."""
+    points, walls = prism(rim, [], t)
+    i, end = np.arange(len(rim)), 0 * np.arange(len(rim)) + len(points)
+    j, top = np.roll(i, -1), i + len(rim)
+    caps = (np.column_stack((j, i, end)), np.column_stack((top, np.roll(top, -1), end + 1)))
+    triangles = np.concatenate((*caps, walls)).astype(np.int32)
+    return np.concatenate((points, [(0, 0, 0), (0, 0, t)])), triangles
 
 
 def holed_shell(t=0.05, around=96, rings=48):
     """A sphere of radius 1 in the middle of its wall, open at both poles."""
     turn = np.linspace(np.radians(25), np.radians(155), rings)
     arc = np.column_stack((np.sin(turn), np.cos(turn)))
-    profile = np.concatenate(((1 + t / 2) * arc, (1 - t / 2) * arc[::-1]))
-    angle = 2 * np.pi * np.arange(around) / around
-    points = np.concatenate(
-        [
-            np.column_stack((r * np.cos(angle), r * np.sin(angle), np.full(around, z)))
-            for r, z in profile
-        ]
-    )
-    i, triangles = np.arange(around), []
-    j = (i + 1) % around
-    for ring in range(len(profile)):
-        a, b = ring * around, (ring + 1) % len(profile) * around
-        triangles += [
-            np.column_stack((a + i, b + j, a + j)),
-            np.column_stack((a + i, b + i, b + j)),
-        ]
-    return _known((points, np.concatenate(triangles).astype(np.int32)), t, (1, 1, 0), sheets=1)
+    profile = np.concatenate(((1 + t / 2) * arc[::-1], (1 - t / 2) * arc))
+    return _known(revolved(profile, around), t, (1, 1, 0), sheets=1)
 
 
 def leaf(t=0.05, around=96, rings=24):

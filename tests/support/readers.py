@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Readers of meshes that others wrote, those that are installed: {name: path -> (vertices, faces, area)}.
 
-They come from PyPI for this check alone; `READERS` has those that are there.
+They come from PyPI for this check alone; `READERS` has those that are there. Plain .ma is read here.
 """
 
 import importlib.util
+from pathlib import Path
 
 import numpy as np
 
@@ -21,6 +22,21 @@ def area_of(points, faces):
 
 def found(points, faces):
     return len(points), len(faces), area_of(points, faces)
+
+
+def read_ma(path):
+    """(v, 4) centres and radii, (e, 2) edges, (f, 3) triangles of a plain .ma file."""
+    tokens = Path(path).read_bytes().split()
+    counts, rest = [int(token) for token in tokens[:3]], tokens[3:]
+    sections = []
+    for letter, width, count, kind in zip((b"v", b"e", b"f"), (4, 2, 3), counts, (float, int, int)):
+        rows = [rest[at : at + width + 1] for at in range(0, count * (width + 1), width + 1)]
+        rest = rest[count * (width + 1) :]
+        assert all(row[0] == letter for row in rows)
+        numbers = [[kind(x) for x in row[1:]] for row in rows]
+        sections.append(np.array(numbers, kind).reshape(count, width))
+    assert rest == []
+    return sections
 
 
 def by_trimesh(path):

@@ -8,7 +8,7 @@ rationals. `tests/native/oracle.h` restates the rest of MEDIAL in the same way.
 from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import combinations
 from math import gcd
 
 import numpy as np
@@ -217,71 +217,26 @@ def winding_number(queries: Array, vertices: Array, triangles: Ints) -> Array:
     return total / (4.0 * np.pi)
 
 
-def boundary_edges(triangles: Ints) -> int:
-    """Edges that are not used equally often in both directions."""
-    balance = defaultdict(int)
-    for corners in np.asarray(triangles).tolist():
-        for a, b in zip(corners, corners[1:] + corners[:1]):
-            balance[min(a, b), max(a, b)] += 1 if a < b else -1 if a > b else 0
-    return sum(1 for value in balance.values() if value)
+def betti_numbers(vertices: int, polygons: list, wires: list = ()) -> tuple[int, int, int]:
+    """(b0, b1, b2) over GF(2) of a complex of so many vertices, of polygons, and of edges besides theirs."""
+    number, edges_of = {}, []
+    for face in polygons:
+        pairs = {(min(a, b), max(a, b)) for a, b in zip(face, face[1:] + face[:1])}
+        edges_of.append(sum(1 << number.setdefault(pair, len(number)) for pair in pairs))
+    for a, b in wires:
+        number.setdefault((min(a, b), max(a, b)), len(number))
+    r1, r2 = rank([1 << a | 1 << b for a, b in number]), rank(edges_of)
+    return vertices - r1, len(number) - r1 - r2, len(edges_of) - r2
 
 
-def betti_numbers(offsets: Ints, corners: Ints) -> tuple[int, int, int]:
-    """(b0, b1, b2) over GF(2) of the cell complex of polygons, by collapses and then column reduction."""
-    faces = [corners[a:b].tolist() for a, b in pairwise(offsets)]
-    edge_row, boundary = {}, []
-    for face in faces:
-        pairs = [(min(a, b), max(a, b)) for a, b in zip(face, face[1:] + face[:1])]
-        boundary.append({edge_row.setdefault(pair, len(edge_row)) for pair in pairs})
-    points = sorted({int(x) for x in corners})
-    b0 = _components(points, edge_row)
-    b2 = _kernel(_collapse(boundary))
-    euler = len(points) - len(edge_row) + len(faces)
-    return b0, b0 + b2 - euler, b2
-
-
-def _components(points: list[int], edges: dict) -> int:
-    parent = {x: x for x in points}
-
-    def root(x: int) -> int:
-        while parent[x] != x:
-            parent[x] = parent[parent[x]]
-            x = parent[x]
-        return x
-
-    for a, b in edges:
-        parent[root(a)] = root(b)
-    return len({root(x) for x in points})
-
-
-def _collapse(boundary: list[set[int]]) -> list[set[int]]:
-    """Faces that are left when faces with an edge of their own are taken away until there is none."""
-    users = defaultdict(set)
-    for face, edges in enumerate(boundary):
-        for edge in edges:
-            users[edge].add(face)
-    waiting = [edge for edge, faces in users.items() if len(faces) == 1]
-    while waiting:
-        edge = waiting.pop()
-        if len(users[edge]) != 1:
-            continue
-        (face,) = users[edge]
-        for other in boundary[face]:
-            users[other].discard(face)
-            if len(users[other]) == 1:
-                waiting.append(other)
-    return [boundary[face] for face in sorted(set().union(*users.values()))]
-
-
-def _kernel(boundary: list[set[int]]) -> int:
-    """Dimension of the kernel over GF(2) of the matrix whose columns are sets of rows."""
-    pivots, cycles = {}, 0
-    for column in boundary:
-        column = set(column)
-        while column and max(column) in pivots:
-            column ^= pivots[max(column)]
-        if column:
-            pivots[max(column)] = column
-        else:
-            cycles += 1
-    return cycles
+def rank(rows: list[int]) -> int:
+    """The rank over GF(2) of a matrix whose rows are the bits of integers."""
+    pivots: dict[int, int] = {}
+    for row in rows:
+        while row:
+            high = row.bit_length()
+            if high not in pivots:
+                pivots[high] = row
+                break
+            row ^= pivots[high]
+    return len(pivots)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
-from support.meshes import Mesh, arc, lathe, weld
+from support.meshes import Mesh, arc, lathe, lattice, weld
 
 HEIGHT = 0.3  # of a prism
 OUTLINES = {  # of prisms, counter-clockwise; the first corner sees all others
@@ -30,13 +30,6 @@ def inner_outline(corners, inset):
     return np.array([np.linalg.solve(inward[pair], away[pair] + inset) for pair in pairs])
 
 
-def between_rings(ids):
-    """The two triangles of each quadrilateral between (k, n) rings of vertices, one above the other."""
-    a, b = ids[:-1], ids[1:]
-    a, b, c, d = (x.ravel() for x in (a, np.roll(a, -1, axis=1), np.roll(b, -1, axis=1), b))
-    return np.column_stack((a, b, c)), np.column_stack((a, c, d))
-
-
 def rounded_prism(corners, radius: float, rows: int) -> Mesh:
     """Its rings from the lower face to the upper one; both of these are fans."""
     turn = np.linspace(0.5 * np.pi, 0.0, rows + 1)
@@ -47,7 +40,7 @@ def rounded_prism(corners, radius: float, rows: int) -> Mesh:
     rings = [*low, *(ring * (1, 1, -1) + (0, 0, HEIGHT) for ring in low[::-1])]
     ids = np.arange(len(rings) * len(corners)).reshape(len(rings), -1)
     fan = np.column_stack([np.zeros_like(ids[0, 1:-1]), ids[0, 1:-1], ids[0, 2:]])
-    faces = [fan[:, ::-1], *between_rings(ids), fan + ids[-1, 0]]
+    faces = [fan[:, ::-1], lattice(np.pad(ids, ((0, 0), (0, 1)), "wrap").T), fan + ids[-1, 0]]
     return np.concatenate(rings), np.concatenate(faces).astype(np.int32)
 
 
@@ -82,7 +75,7 @@ def rounded_box(half, radius: float, rows: int) -> Mesh:
     caps = [[cap[0], cap[1], cap[2]], [cap[0], cap[2], cap[3]]]
     low = ids[0, :: rows + 1]
     caps += [[low[0], low[2], low[1]], [low[0], low[3], low[2]]]
-    faces = [*between_rings(ids), np.array(caps)]
+    faces = [lattice(np.pad(ids, ((0, 0), (0, 1)), "wrap").T), np.array(caps)]
     return weld((rings.reshape(-1, 3), np.concatenate(faces).astype(np.int32)))
 
 

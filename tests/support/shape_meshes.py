@@ -7,7 +7,7 @@ Every vertex lies on the shape; between the vertices the mesh is flat, as an art
 import numpy as np
 from numpy.typing import NDArray
 
-from .meshes import Mesh, box, flip, icosphere, join, lathe, rectangle, torus, weld
+from .meshes import Mesh, box, flip, icosphere, join, lathe, lattice, rectangle, torus, weld
 from .shapes import MORE_SHAPES, SHAPES, Capsule, Ellipsoid, Lathe, Shape, Shell, Slab
 
 Array = NDArray[np.float64]
@@ -73,12 +73,8 @@ def _rounded_rectangle(shape: Slab, turn: int, along: int, across: int) -> tuple
 
 def _tube(rings: Array) -> Mesh:
     """Quads between (k, m, 3) closed rings, each counter-clockwise from above and each below the one before."""
-    k, m = rings.shape[:2]
-    i, j = np.meshgrid(np.arange(k - 1), np.arange(m), indexing="ij")
-    a, b = (i * m + j).ravel(), (i * m + (j + 1) % m).ravel()
-    return rings.reshape(-1, 3), np.concatenate(
-        (np.column_stack((a, a + m, b + m)), np.column_stack((a, b + m, b)))
-    ).astype(np.int32)
+    ids = np.arange(rings[..., 0].size).reshape(rings.shape[:2])
+    return rings.reshape(-1, 3), lattice(np.pad(ids, ((0, 0), (0, 1)), "wrap"))
 
 
 MESHED: dict[str, tuple[Shape, Mesh]] = {

@@ -13,8 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 Array = NDArray[np.float64]
@@ -62,14 +60,3 @@ def worst(axis: Any, points: Array, kinds: NDArray | None, values: Array, count:
                 f"{gap:.4g} apart{kind}"
             )
     return "\n".join(lines)
-
-
-def components(axis: Any) -> int:
-    """Sets of facets that hang together, if only by a vertex."""
-    facet = np.repeat(np.arange(len(axis.generators)), np.diff(axis.face_offsets))
-    size = len(axis.generators) + len(axis.vertices)
-    graph = coo_array(
-        (np.ones(len(facet)), (facet, axis.face_vertices + len(axis.generators))),
-        shape=(size, size),
-    )
-    return connected_components(graph, directed=False)[0]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import meshes
+from . import inputs, meshes, resampled
 from .plates import prism
 from .thick_meshes import lathe
 
@@ -32,22 +32,18 @@ class ThinSolid:
 
 def turned(mesh: Mesh, seed: int = 1) -> Mesh:
     """The mesh in a random pose, rounded to float32 as meshes are stored."""
-    points, triangles = mesh
-    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    q = q * np.sign(np.diag(r))
-    if np.linalg.det(q) < 0:
-        q[:, 0] = -q[:, 0]
-    return (points @ q.T).astype(np.float32).astype(np.float64), triangles
+    return resampled.turned(mesh, inputs.rotation(seed))
 
 
-def union(*boxes: Box) -> Mesh:
+def union(*boxes: Box, without: tuple[Box, ...] = ()) -> Mesh:
     """The boundary of a union of boxes, cut along all of their planes so that faces meet edge to edge."""
-    planes = [np.unique([end[axis] for box in boxes for end in box]) for axis in range(3)]
+    every = (*boxes, *without)
+    planes = [np.unique([end[axis] for box in every for end in box]) for axis in range(3)]
     middles = [(p[:-1] + p[1:]) / 2 for p in planes]
     grid = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1)
     filled = np.zeros(grid.shape[:3], bool)
-    for low, high in boxes:
-        filled |= ((grid > low) & (grid < high)).all(axis=-1)
+    for at, (low, high) in enumerate(every):
+        filled[((grid > low) & (grid < high)).all(axis=-1)] = at < len(boxes)
     padded = np.pad(filled, 1)
     shape = [len(p) for p in planes]
     quads = []

@@ -15,12 +15,18 @@ def edges(triangles: Ints) -> tuple[Ints, Ints]:
     return np.unique(np.sort(pairs, axis=1), axis=0, return_counts=True)
 
 
-def is_oriented(triangles: Ints) -> bool:
-    """Every edge is used equally often in both directions."""
+def boundary_edges(triangles: Ints) -> int:
+    """Edges that are not used equally often in both directions."""
     pairs = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
     ends = np.sort(pairs, axis=1)
     _, edge = np.unique(ends, axis=0, return_inverse=True)
-    return not np.bincount(edge, np.where(pairs[:, 0] == ends[:, 0], 1, -1)).any()
+    return np.count_nonzero(
+        np.bincount(edge.reshape(-1), np.where(pairs[:, 0] == ends[:, 0], 1, -1))
+    )
+
+
+def is_oriented(triangles: Ints) -> bool:
+    return not boundary_edges(triangles)
 
 
 def euler(triangles: Ints) -> int:
