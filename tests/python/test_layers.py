@@ -285,7 +285,7 @@ def test_cgal_has_one_home():
 
 def test_what_boost_gives_has_one_home_each():
     """Predicates and circumcentres share its integers; headers that CGAL includes by itself do not count."""
-    homes = ["exact_integer.h", "short_list.h"]
+    homes = ("exact_integer.h", "short_list.h")
     assert users_of("boost/") == [MEDIAL / "base" / home for home in homes]
 
 
