@@ -10,7 +10,7 @@ namespace medial {
 // share of the diagonal that a chord misses a curved sheet by, at most
 inline constexpr double kChord = 1e-3;  // chosen: axis
 // the same for creases, whose corners stand out against the background
-inline constexpr double kChordOfLine = kChord / 3;  // chosen: axis
+inline constexpr double kChordOfLine = 0.3 * kChord;  // chosen: axis
 
 // Triangles are in the order of their facets, and vertices in the order in which triangles, wires
 // and points first use them. The sources of the mesh are facets of the level, its origins vertices.
