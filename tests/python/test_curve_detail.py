@@ -102,8 +102,7 @@ def test_without_detail_the_curve_has_the_branches_of_the_skeleton(curves):
 def test_arms_that_touch_at_their_ends_stay(samples):
     """The last rung leads from end to end, so that the arms beyond the last but one are a part of a loop."""
     settings = Settings(form=Form.CURVE, sampling=SamplingMode.SURFACE, samples=samples, detail=0.0)
-    points, triangles = tongs()
-    axis = compute_axis(shape_of((of_any_processor(points), triangles)), settings).axis
+    axis = compute_axis(shape_of(of_any_processor(tongs())), settings).axis
     far = axis.vertices[axis.vertices[:, 0] > 3.5, 1]
     assert axis.level.betti == (1, 0, 0) and tips(axis) == 2
     assert far.min() < 0.1 and far.max() > 0.5

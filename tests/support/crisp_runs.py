@@ -29,14 +29,12 @@ class Case:
 
         solid = crisp_solids.solid(self.name)
         turn = None if self.as_is else self.seed
-        (points, triangles), frame = crisp_solids.turned(solid.mesh, turn, self.single)
+        mesh, frame = crisp_solids.turned(solid.mesh, turn, self.single)
         if self.name in ROUND:
-            points = inputs.of_any_processor(points)
+            mesh = inputs.of_any_processor(mesh)
         chosen = {"samples": self.count, "seed": self.seed, "form": self.form, "mesh": self.mesh}
         return Made(
-            self,
-            medial_axis.compute(points, triangles, sampling="surface", crisp=crisp, **chosen),
-            frame,
+            self, medial_axis.compute(*mesh, sampling="surface", crisp=crisp, **chosen), frame
         )
 
 

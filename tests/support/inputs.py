@@ -9,9 +9,9 @@ from . import meshes, shapes
 Array = NDArray[np.float64]
 
 
-def of_any_processor(points: Array) -> Array:
-    """Places without the last bits of sines, which differ between processors and decide where samples go."""
-    return np.round(points, 10)
+def of_any_processor(mesh: meshes.Mesh) -> meshes.Mesh:
+    """A mesh without the last bits of sines, which differ between processors and decide where samples go."""
+    return np.round(mesh[0], 10), mesh[1]
 
 
 def rotation(seed: int) -> Array:

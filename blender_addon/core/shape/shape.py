@@ -97,9 +97,8 @@ class Shape:
         """The number of vertices that belong to no face."""
         if not self.left_out.any():
             return len(self.points) - len(np.unique(self.triangles))
-        place = same_place(
-            self.points
-        )  # the corners of a face that was left out are those of another
+        # The corners of a face that was left out are those of another.
+        place = same_place(self.points)
         return len(np.unique(place)) - len(np.unique(place[self.triangles]))
 
     @cached_property

@@ -126,7 +126,8 @@ class Remesher {
   // Returns whether an edge along a line misses it by more than it may.
   bool misses_line(int32_t a, int32_t b) const {
     const Vec3 middle = 0.5 * (e_.position[a] + e_.position[b]);
-    return place_on_line(a, b, middle) && !options_.onto_line(middle, options_.chord);
+    const std::optional<Vec3> place = place_on_line(a, b, middle);
+    return place && distance(*place, middle) > options_.chord;
   }
 
   bool collapse(int32_t from, int32_t to) {
