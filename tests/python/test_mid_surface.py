@@ -488,11 +488,16 @@ def test_a_pipe_is_as_thick_at_its_ends_as_between_them(around):
         np.testing.assert_allclose(thickness, 0.05, rtol=0.003)
 
 
-def test_a_thin_pipe_of_few_sides_is_flat_sheets():
-    """Samples lie on its flat faces, so its edges of 30 degrees are sharp; facets across them read 0.93 to 0.96."""
-    found = sheets_of(pipe(12, 1.0, 1.0, 0.05, 1.0), Settings())
+@pytest.mark.parametrize("digits", [5, 7, 10])
+def test_a_thin_pipe_of_few_sides_is_flat_sheets(digits):
+    """Samples lie on its flat faces, so its edges of 30 degrees are sharp; facets across them read 0.93 to 0.96.
+
+    Where its sides are flat only up to rounding, facets at its edges have two edges in common.
+    """
+    points, triangles = pipe(12, 1.0, 1.0, 0.05, 1.0)
+    found = sheets_of((points.round(digits), triangles), Settings())
     assert found.sheets == len(found.part) == 12
-    np.testing.assert_allclose(found.thickness, 0.05 * np.cos(np.pi / 12), rtol=1e-6)
+    np.testing.assert_allclose(found.thickness, 0.05 * np.cos(np.pi / 12), atol=10.0**-digits)
 
 
 def test_a_pipe_takes_no_more_samples_than_its_sheet_needs():

@@ -82,7 +82,9 @@ def thin_sheets(axis: MedialAxis, patches: Ints | None, least_width: float) -> T
     kept &= _in_wide_pieces(turned, kept, areas, at_edge, least_width)
     left = np.bincount(part[kept], minlength=structure.parts) > 0
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
+    triangles = triangulate_facets(turned.vertices, *polygons)
     rows = np.flatnonzero(kept[facets])
+    rows = rows[_are_single(triangles[rows])]
     facets = facets[rows]
     number = np.cumsum(left) - 1
     return ThinSheets(
@@ -92,12 +94,24 @@ def thin_sheets(axis: MedialAxis, patches: Ints | None, least_width: float) -> T
         facet=facets,
         facing=(facing & _even(turned))[facets],
         sliver=slivers[facets],
-        triangles=triangulate_facets(turned.vertices, *polygons)[rows],
+        triangles=triangles[rows],
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
         slopes=slopes[facets],
         parts=int(left.sum()),
     )
+
+
+def _are_single(triangles: Ints) -> Flags:
+    """(t,) the triangles that no other one lies on.
+
+    Two facets with two edges in common, one behind the other, are cut along one diagonal: what both cut off is twice
+    the same triangle, between which there is nothing.
+    """
+    _, of, uses = np.unique(
+        np.sort(triangles, axis=1), axis=0, return_inverse=True, return_counts=True
+    )
+    return np.asarray(uses[of.reshape(-1)] == 1)
 
 
 def _slopes(axis: MedialAxis, areas: Floats, normals: Floats) -> Floats:
