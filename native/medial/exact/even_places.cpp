@@ -137,8 +137,9 @@ std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
   const double hole = hole_at(v);
   const Touch ball = smooth_ball(samples_, {start, hole}, walls);
   if (!(ball.radius > 0)) return {};
-  const bool is_inside = e_.mesh.stratum(v) == Stratum::sheet;
-  return is_inside || is_empty_between(samples_, ball, hole) ? ball : Touch{};
+  if (e_.mesh.stratum(v) == Stratum::sheet) return ball;
+  const bool has_two_feet = openness(ball.away) > kRimOpenness;
+  return has_two_feet && is_empty_between(samples_, ball, hole) ? ball : Touch{};
 }
 
 Touch EvenPlaces::ball_of_walls(int32_t v) const {
@@ -301,6 +302,7 @@ Vec3 EvenPlaces::last_place(int32_t v, const Vec3& far) const {
 SmoothRim EvenPlaces::last_ball(int32_t v) const {
   int32_t inner = -1;
   e_.mesh.for_corners(v, [&](int32_t other) {
+    if (e_.mesh.stratum(other) != Stratum::sheet) return;
     if (placing_[other] != Placing::touching || found_[other].walls.count != 2) return;
     const auto away = [&](int32_t at) { return distance(e_.position[at], e_.position[v]); };
     if (inner < 0 || away(other) < away(inner)) inner = other;
