@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import OutOfMemoryError, ReadError
+from .dae import read_dae
 from .imported_points import ImportedPoints
 from .numpy_arrays import read_npy, read_npz
 from .obj import read_obj
@@ -33,6 +34,7 @@ READERS: dict[str, Callable[[Path], ImportedPoints]] = {
     ".ply": read_ply,
     ".obj": read_obj,
     ".stl": read_stl,
+    ".dae": read_dae,
     ".npy": read_npy,
     ".npz": read_npz,
 }
