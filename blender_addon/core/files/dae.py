@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -64,14 +64,12 @@ class _Document:
         """Yield the meshes in a node in the frame around it; faces of mirrored ones are turned."""
         moves = [child for child in node if _tag(child) in _MOVES][::-1]
         for child in node:
-            tag = _tag(child)
-            found: Iterable[_Piece] = ()
-            if tag == "instance_geometry":
-                found = [self._mesh(self._target(child))]
-            elif tag in ("node", "instance_node"):
-                found = self._placed(child if tag == "node" else self._target(child))
-            elif tag == "instance_controller":
+            if (tag := _tag(child)) == "instance_controller":
                 raise ValueError("a mesh with bones, <instance_controller>")
+            if tag not in ("node", "instance_node", "instance_geometry"):
+                continue
+            inner = child if tag == "node" else self._target(child)
+            found = [self._mesh(inner)] if tag == "instance_geometry" else self._placed(inner)
             for points, sizes, corners in found:
                 for frame in map(_frame, moves):
                     points = placed(points, frame)

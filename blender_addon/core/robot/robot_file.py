@@ -99,15 +99,8 @@ def _geometry_of(
     corners = [mesh[1] + start for mesh, start in zip(meshes, starts, strict=False)]
     triangles = np.concatenate(corners or [np.empty((0, 3))]).astype(np.int32)
     spans = tuple((element.start, element.end) for element in elements)
-    return LinkGeometry(
-        name,
-        np.concatenate(points),
-        triangles,
-        spans,
-        tuple(sorted(kinds)),
-        tuple(kept.items()),
-        problem,
-    )
+    shape = np.concatenate(points), triangles, spans, tuple(sorted(kinds))
+    return LinkGeometry(name, *shape, tuple(kept.items()), problem)
 
 
 def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:
