@@ -21,11 +21,8 @@ def numbers_of(
         numbers = np.array([float(word) for word in text.split()])
     except ValueError:
         numbers = np.empty(0)
-    if (
-        len(numbers) != count
-        or not np.isfinite(numbers).all()
-        or not (signed or (numbers > 0).all())
-    ):
+    right = len(numbers) == count and np.isfinite(numbers).all()
+    if not right or not (signed or (numbers > 0).all()):
         what = "number" if count == 1 else "numbers"
         above = "" if signed else " above 0"
         raise ReadError(

@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
@@ -52,10 +51,7 @@ class RobotFile:
     tag: str
     extensions: tuple[str, ...]
 
-    @cached_property
-    def frame(self) -> Floats:
-        """Return the identity: links have frames of their own."""
-        return np.identity(4)
+    frame = np.identity(4)  # links have frames of their own
 
     def with_shapes(self, shapes: Mapping[int, Balls]) -> bytes:
         """Return the file with balls and capsules as the collision geometry of some links, named by their rows."""
