@@ -87,7 +87,7 @@ class _Document:
         points = numbers[start : start + count * stride].reshape(count, stride)[:, [0, 1, 2]]
         groups = [child for child in mesh if _tag(child).startswith(("tri", "poly"))]
         parts = [(_NONE, _NONE), *map(_polygons, groups)]
-        sizes, corners = map(np.concatenate, zip(*parts, strict=True))
+        sizes, corners = (np.concatenate(part) for part in zip(*parts, strict=True))
         if len(bad := corners[(corners < 0) | (corners >= len(points))]):
             raise ValueError(f"the corner {bad[0]} of {len(points)} points")
         used, rows = np.unique(corners, return_inverse=True)

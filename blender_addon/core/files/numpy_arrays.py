@@ -19,17 +19,8 @@ from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
 
-_BROKEN = (
-    ValueError,
-    ArithmeticError,
-    EOFError,
-    LookupError,
-    RuntimeError,
-    SyntaxError,
-    tokenize.TokenError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
+_UNFIT = (ValueError, ArithmeticError, EOFError, LookupError, RuntimeError, SyntaxError)
+_BROKEN = (*_UNFIT, tokenize.TokenError, zipfile.BadZipFile, zlib.error)
 
 
 def read_npy(path: str | os.PathLike) -> ImportedPoints:
