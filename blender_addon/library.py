@@ -267,7 +267,7 @@ def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Recon
 
 
 def read(path: str | os.PathLike[str]) -> Shape:
-    """Return points, triangles and normals of a file: .xyz .xyzn .off .ply .obj .stl .npy .npz.
+    """Return points, triangles and normals of a file: .xyz .xyzn .off .ply .obj .stl .dae .npy .npz.
 
     Polygons are cut into triangles. Without faces `triangles` is empty, without normals `normals` is None.
 

@@ -46,3 +46,10 @@ def cosine(angle: Angles) -> Angles:
     for k in range(_TAYLOR - 1, 0, -1):
         result = 1.0 - square * result / (2 * k * (2 * k - 1))
     return result
+
+
+def turn_about(axis: Floats, angle: float) -> Floats:
+    """Return the matrix of a turn by radians about a unit axis, (3,)."""
+    along, across = np.outer(axis, axis), np.cross(axis, np.identity(3)).T
+    cos, sin = cosine(angle), cosine(angle - math.pi / 2)
+    return along + cos * (np.identity(3) - along) + sin * across

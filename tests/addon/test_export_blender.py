@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from installed import addon
 from measure import attribute, entries_of, positions, reports, world_positions
-from scene import compute, export, in_edit_mode, link, refuse_export, select, torus
+from scene import compute, export, in_edit_mode, link, refuse_export, select, suzanne, torus
 from support.readers import read_ma
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
@@ -296,3 +296,21 @@ def test_blenders_exporters_keep_the_places(result, name, tmp_path):
         assert np.array_equal(corner_counts(again.data), counts)
         assert len(again.data.vertices) == len(result.data.vertices)
     assert_same_point_set(world_positions(again), world_positions(result))
+
+
+@pytest.mark.skipif("collada_export" not in dir(bpy.ops.wm), reason="this Blender has no COLLADA")
+def test_our_reader_takes_blenders_collada(tmp_path):
+    """An object in a stretched one lies where Blender has it; each material has a group of polygons."""
+    outer, inner = suzanne(), torus()
+    outer.location, outer.rotation_euler, outer.scale = (3, -2, 1), (0.3, -0.5, 0.7), (1, 2, -0.5)
+    inner.parent, inner.location, inner.rotation_euler = outer, (0, 1, 0), (0.2, 0.4, 0.1)
+    for name in "ab":
+        inner.data.materials.append(bpy.data.materials.new(name))
+    inner.data.polygons[7].material_index = 1
+    bpy.context.view_layer.update()
+    called("wm.collada_export", filepath=str(tmp_path / "both.dae"), triangulate=False)
+    found = addon("core.files.read").import_points(tmp_path / "both.dae")
+    places = np.concatenate([world_positions(outer), world_positions(inner)])
+    assert_same_point_set(found.vertices, places)
+    sizes = np.concatenate([corner_counts(outer.data), corner_counts(inner.data)])
+    assert np.array_equal(np.sort(np.diff(found.face_offsets)), np.sort(sizes))

@@ -24,6 +24,7 @@ GOOD = {
     "a.obj": cubes.obj(),
     "a.stl": cubes.stl_text(),
     "b.stl": cubes.stl_binary(),
+    "a.dae": cubes.dae(scene=f"<node>{cubes.QUARTER}{cubes.AWAY}{cubes.MESH}</node>"),
     "a.npy": cubes.npy(cubes.POINTS),
     "a.npz": cubes.npz(points=cubes.POINTS, normals=cubes.NORMALS),
     "b.off": cubes.off_binary(),

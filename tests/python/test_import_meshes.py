@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # ruff: noqa: F811 - the fixture of another file is an argument here
-"""PLY, OBJ, STL and arrays of NumPy: the same cube comes out of each, and nothing wrong goes in."""
+"""PLY, OBJ, STL, COLLADA and arrays of NumPy: the same cube comes out of each, and nothing wrong goes in."""
 
 import io
 import itertools
@@ -79,6 +79,37 @@ def stl_binary(header=b"not solid"):
     count = struct.pack("<I", len(TRIANGLES))
     rows = [struct.pack("<12fH", 0, 0, 0, *POINTS[triangle].ravel(), 0) for triangle in TRIANGLES]
     return header.ljust(80, b" ") + count + b"".join(rows)
+
+
+MESH = "<instance_geometry url='#g'/>"
+DAE = """<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema'><asset>{asset}</asset>
+<library_geometries><geometry id='g'><mesh><source id='s'><float_array id='a'>{numbers}</float_array>
+<technique_common><accessor source='#a' count='8' offset='1' stride='4'/></technique_common></source>
+<vertices id='v'><input semantic='POSITION' source='#s'/></vertices>{groups}
+<lines><input semantic='VERTEX' source='#v' offset='0'/><p>0 7</p></lines></mesh></geometry>
+</library_geometries><library_nodes><node id='n'>{node}</node></library_nodes><library_visual_scenes>
+<visual_scene id='here'>{scene}</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url='#here'/></scene></COLLADA>"""
+
+
+def group(kind="polylist", faces=QUADS.tolist(), at=0, width=1):
+    """Faces of a COLLADA file; behind each corner or before it are ids of something else."""
+    rows = [
+        " ".join(" ".join(["99"] * at + [str(i)] + ["99"] * (width - 1 - at)) for i in f)
+        for f in faces
+    ]
+    lists = rows if kind == "polygons" else [" ".join(rows)]
+    counts = f"<vcount>{' '.join(str(len(face)) for face in faces)}</vcount>"
+    kinds = ["VERTEX" if i == at else "TEXCOORD" for i in range(width)]
+    inputs = [f"<input semantic='{k}' source='#v' offset='{i}'/>" for i, k in enumerate(kinds)]
+    body = "".join([*inputs[::-1], counts if kind == "polylist" else ""])
+    return f"<{kind}>{body}{''.join(f'<p>{row}</p>' for row in lists)}</{kind}>"
+
+
+def dae(groups=group(), scene=f"<node>{MESH}</node>", asset="", node=MESH):
+    """A COLLADA file whose points have a number before and one between them, as accessors allow."""
+    numbers = "7 " + "".join("{:.17g} {:.17g} {:.17g} 7 ".format(*point) for point in POINTS)
+    return DAE.format(groups=groups, scene=scene, asset=asset, node=node, numbers=numbers)
 
 
 def npz(**arrays):
@@ -221,6 +252,82 @@ def test_stl(read, content):
     assert first == seen, "points come in the order of the file"
 
 
+# --- COLLADA
+
+
+SPLIT = [*QUADS[:5].tolist(), [1, 5, 7], [1, 7, 3]]
+
+
+@pytest.mark.parametrize("at, width", [(0, 1), (0, 3), (2, 3)])
+@pytest.mark.parametrize(
+    "kind, faces",
+    [("triangles", TRIANGLES.tolist()), ("polylist", SPLIT), ("polygons", SPLIT)],
+)
+def test_dae(read, kind, faces, at, width):
+    assert_cube(read("a.dae", dae(group(kind, faces, at, width))), faces=faces)
+
+
+def test_dae_of_several_groups_leaves_what_is_no_polygon(read):
+    """A mesh has a group for each material. Lines, and points that only they use, are no part of a solid."""
+    parts = [
+        group("polygons", MIXED[:1]),
+        group("triangles", MIXED[1:]),
+        group("polygons", [[1, 0]]),
+    ]
+    found = read("a.dae", dae("".join(parts)))
+    np.testing.assert_array_equal(found.vertices, POINTS[:5])
+    assert faces_of(found) == MIXED
+    assert found.warnings == ("Left out faces of fewer than three corners: 1",)
+
+
+QUARTER, AWAY = "<rotate>0 0 2 90</rotate>", "<translate>1 2 3</translate>"
+SHIFT = np.array([1.0, 2.0, 3.0])
+TURNED = POINTS[:, [1, 0, 2]] * (-1, 1, 1)
+PLACES = {
+    "translate": (f"<node>{AWAY}{MESH}</node>", POINTS + SHIFT),
+    "scale": (f"<node><scale>2 1 3</scale>{MESH}</node>", POINTS * (2, 1, 3)),
+    "rotate": (f"<node>{QUARTER}{MESH}</node>", TURNED),
+    "no axis": (f"<node><rotate>0 0 0 0</rotate>{MESH}</node>", POINTS),
+    "matrix": (f"<node><matrix>0 -1 0 1 1 0 0 2 0 0 1 3 0 0 0 1</matrix>{MESH}</node>", TURNED + SHIFT),
+    "in order": (f"<node>{AWAY}{QUARTER}{MESH}</node>", TURNED + SHIFT),
+    "nested": (f"<node>{QUARTER}<node>{AWAY}{MESH}</node></node>", (POINTS + SHIFT)[:, [1, 0, 2]] * (-1, 1, 1)),
+    "instance": (f"<node>{AWAY}<instance_node url='#n'/></node>", TURNED + SHIFT),
+    "beside a camera": (f"<node><lookat>0 0 0 1 1 1 0 0 1</lookat></node><node>{MESH}</node>", POINTS),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scene, expected", PLACES.values(), ids=PLACES)
+def test_places_in_a_dae(read, scene, expected):
+    found = read("a.dae", dae(scene=scene, node=QUARTER + MESH))
+    np.testing.assert_allclose(found.vertices, expected, rtol=0, atol=1e-15)
+
+
+def test_several_instances_in_a_dae(read):
+    found = read("a.dae", dae(scene=f"<node>{MESH}<node>{AWAY}{MESH}</node></node>"))
+    np.testing.assert_array_equal(found.vertices, np.concatenate([POINTS, POINTS + SHIFT]))
+    assert faces_of(found) == [*QUADS.tolist(), *(QUADS + 8).tolist()]
+
+
+def test_a_mirrored_dae_keeps_its_faces_outward(tmp_path):
+    (tmp_path / "a.dae").write_text(dae(scene=f"<node><scale>-1 1 2</scale>{MESH}</node>"))
+    shape, _ = read_shape(tmp_path / "a.dae")
+    assert volume(shape.points, shape.triangles) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("up", ["X", "Y", "Z"])
+def test_units_and_axes_of_a_dae(read, up):
+    """Lengths become metres, those of nodes as well, and nothing is turned, as in viewers of robots."""
+    asset = f"<unit name='inch' meter='0.0254'/><up_axis>{up}_UP</up_axis>"
+    found = read("a.dae", dae(scene=f"<node>{AWAY}{MESH}</node>", asset=asset))
+    np.testing.assert_array_equal(found.vertices, 0.0254 * (POINTS + SHIFT))
+
+
+def test_a_dae_of_trimesh(read):
+    trimesh, _ = pytest.importorskip("trimesh"), pytest.importorskip("collada")
+    body = trimesh.Trimesh(POINTS, TRIANGLES, process=False)
+    assert_cube(read("a.dae", trimesh.exchange.dae.export_collada(body)), faces=TRIANGLES.tolist())
+
+
 # --- text of other programs
 
 
@@ -232,6 +339,7 @@ def test_stl(read, content):
         ("a.ply", ply()),
         ("a.ply", ply("binary_little_endian")),
         ("a.stl", stl_text()),
+        ("a.dae", dae()),
         ("a.xyz", "".join("{:g} {:g} {:g}\n".format(*p) for p in POINTS)),
     ],
 )
@@ -356,6 +464,30 @@ REFUSED = {
         (off_binary() + b"\0", "points and faces that the counts"),
         (off_binary(faces=[[0, 1, 8]]), "corners from 0 to 7"),
         (off_binary(points=POINTS + np.inf), "finite numbers"),
+    ],
+    "a.dae": [
+        ("", "COLLADA meshes in 'a.dae', found 'no element found"),
+        ("<svg/>", "found 'no <scene/instance_visual_scene> in <svg>'; save it again"),
+        (dae().replace("url='#here'", ""), "found 'url='' in <instance_visual_scene>, which"),
+        (dae().replace("#g'", "#h'"), "'url='#h' in <instance_geometry>, which names nothing'"),
+        (dae().replace("POSITION", "PLACE"), "no <vertices/input.*POSITION.*> in <mesh>"),
+        (dae().replace("count='8'", "count='9'"), "cannot reshape array"),
+        (dae().replace("stride='4'", "stride='2'"), "out of bounds"),
+        (dae().replace("7 0 0 0", "7 0 x 0"), "could not convert string to float: 'x'"),
+        (dae().replace("7 0 0 0", "7 0 INF 0"), "finite numbers in 'a.dae'"),
+        (dae(group(faces=[[0, 1, 8]])), "the corner 8 of 8 points"),
+        (dae(group(faces=[[0, 1, -1]])), "the corner -1 of 8 points"),
+        (dae().replace("<vcount>4", "<vcount>5"), "24 numbers of 25 corners in <polylist>"),
+        (dae(group("triangles", QUADS[:2])), "8 numbers of 6 corners in <triangles>"),
+        (dae(group("tristrips", TRIANGLES)), "<tristrips> that are strips"),
+        (dae("<polygons><ph/></polygons>"), "<polygons> that are strips, fans or have holes"),
+        (dae(scene=f"<node><skew>1 0 0 0 1 0 0</skew>{MESH}</node>"), "<skew> around a mesh"),
+        (dae(scene=f"<node><rotate>1 0 0</rotate>{MESH}</node>"), "out of bounds"),
+        (dae(scene="<node><instance_controller/></node>"), "<instance_controller>"),
+        (dae(scene="<node/>"), "0 meshes with polygons"),
+        (dae(scene="<instance_node url='#n'/>", node="<instance_node url='#n'/>"), "recursion"),
+        (dae(asset="<unit meter='0'/>"), "1 meshes with polygons, in a unit of 0 metres"),
+        (dae(asset="<unit meter='1 m'/>"), "could not convert string to float: '1 m'"),
     ],
     "a.npy": [
         (b"", "arrays of NumPy"),

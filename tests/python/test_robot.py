@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import test_import_meshes as cubes
 from medial_axis import cli
 from medial_axis.core.errors import ReadError
 from medial_axis.core.machine import native
@@ -163,6 +164,18 @@ def test_links_of_equal_geometry_are_covered_once(tmp_path, capsys):
     assert (tmp_path / "b.urdf").read_text().count("<cylinder") == 2
 
 
+def test_a_link_may_be_a_dae(tmp_path):
+    """It is a metre long by the unit of its file, before the scale of the robot; no axis is turned."""
+    asset = "<unit meter='0.01'/><up_axis>Y_UP</up_axis>"
+    (tmp_path / "a.dae").write_text(cubes.dae(scene=f"<node>{cubes.MESH}</node>", asset=asset))
+    path = robot(tmp_path, "<mesh filename='a.dae' scale='100 200 -300'/>")
+    (link,) = read_robot(path)[0].links
+    np.testing.assert_allclose(link.points, cubes.POINTS * (1, 2, -3))
+    assert Shape(link.points, link.triangles).volume == pytest.approx(6.0)
+    assert run(path, tmp_path / "b.urdf") == cli.DONE
+    assert away(links_of(tmp_path / "b.urdf")["a"], link.points).max() <= 1e-9
+
+
 def test_a_link_gives_the_warnings_of_its_solid(tmp_path, capsys):
     points, triangles = block(2, 1, 1)
     write_off(tmp_path / "open.off", (points, triangles[1:]))
@@ -195,7 +208,7 @@ def test_what_is_no_robot_is_refused(tmp_path, text, said):
         ("<cone/>", "found <cone>"),
         ("<box size='1 1'/>", "Expected 3 numbers above 0 as size of <box>"),
         ("<sphere radius='-1'/>", "Expected 1 number above 0 as radius"),
-        ("<mesh filename='a.dae'/>", "ends in"),
+        ("<mesh filename='a.glb'/>", "ends in"),
     ],
 )
 def test_geometry_that_cannot_be_read_is_told(tmp_path, geometry, said):

@@ -16,7 +16,6 @@ from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 # Extension -> operators that import it, the first one that this Blender has.
 _IMPORTERS = {
     ".abc": ("wm.alembic_import",),
-    ".dae": ("wm.collada_import",),
     ".fbx": ("wm.fbx_import", "import_scene.fbx"),
     ".glb": ("import_scene.gltf",),
     ".gltf": ("import_scene.gltf",),

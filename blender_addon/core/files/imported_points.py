@@ -12,14 +12,6 @@ from ..arrays import Floats, Ints
 from ..errors import ReadError
 
 
-def _no_offsets() -> Ints:
-    return np.zeros(1, np.int32)
-
-
-def _no_vertices() -> Ints:
-    return np.zeros(0, np.int32)
-
-
 @dataclass(frozen=True, eq=False)
 class ImportedPoints:
     """This is the content of a file: points, and its normals, faces and warnings if there are any."""
@@ -27,8 +19,9 @@ class ImportedPoints:
     vertices: Floats  # (n, 3) They are finite, and in the order of the file; none are merged
     normals: Floats | None = None  # (n, 3) They have any length; a point without a normal has zero
     # (f + 1,) Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, at least three
-    face_offsets: Ints = field(default_factory=_no_offsets)
-    face_vertices: Ints = field(default_factory=_no_vertices)  # (c,) Rows of `vertices`
+    face_offsets: Ints = field(default_factory=lambda: np.zeros(1, np.int32))
+    # (c,) Rows of `vertices`
+    face_vertices: Ints = field(default_factory=lambda: np.zeros(0, np.int32))
     warnings: tuple[str, ...] = ()  # Each sentence names a part of the file that was not read
     single: bool = False  # The file has the coordinates as float32
 

@@ -19,23 +19,14 @@ from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
 
-_BROKEN = (
-    ValueError,
-    ArithmeticError,
-    EOFError,
-    LookupError,
-    RuntimeError,
-    SyntaxError,
-    tokenize.TokenError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
+_UNFIT = (ValueError, ArithmeticError, EOFError, LookupError, RuntimeError, SyntaxError)
+_BROKEN = (*_UNFIT, tokenize.TokenError, zipfile.BadZipFile, zlib.error)
 
 
 def read_npy(path: str | os.PathLike) -> ImportedPoints:
     """Read points from an (n, 3) array, or points and normals from an (n, 6) array."""
     name = Path(path).name
-    with open_file(path) as stream, _refusing(name):
+    with open_file(path) as stream, refusing(name):
         table = np.lib.format.read_array(stream, allow_pickle=False)
     if table.ndim != 2 or table.shape[1] not in (3, 6) or table.dtype.kind not in "fiu":
         raise ReadError(
@@ -100,7 +91,7 @@ def _rows(stream: IO[bytes]) -> int:
 
 def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDArray]:
     """Return the arrays of an archive that have one of the names; missing names are left out."""
-    with open_file(path) as stream, _refusing(Path(path).name):
+    with open_file(path) as stream, refusing(Path(path).name):
         archive = np.load(stream, allow_pickle=False)
         if not isinstance(archive, np.lib.npyio.NpzFile):
             raise ValueError("this is a single array")
@@ -109,12 +100,10 @@ def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDAr
 
 
 @contextmanager
-def _refusing(name: str) -> Iterator[None]:
-    """Turn the error that NumPy raises for a broken file into a ReadError."""
+def refusing(name: str, what: str = "arrays of NumPy") -> Iterator[None]:
+    """Turn an error that Python or NumPy raises for a broken file into a ReadError."""
     try:
         yield
     except _BROKEN as error:
-        said = (str(error) or type(error).__name__).splitlines()[0]
-        raise ReadError(
-            f"Expected arrays of NumPy in '{name}', but it says '{said}'; save it again"
-        ) from error
+        said = (str(error) or type(error).__name__).splitlines()[0][:99]
+        raise ReadError(f"Expected {what} in '{name}', found '{said}'; save it again") from error

@@ -94,18 +94,10 @@ def _read_faces(rows: Rows, points: int) -> tuple[Ints, Ints, int]:
 
     A line holds the number of corners, the corners, and perhaps a colour.
     """
-    starts, words = rows.offsets[:-1], np.diff(rows.offsets)
-    sizes = rows.values[starts]
-    bad = np.flatnonzero((sizes != np.floor(sizes)) | (sizes < 0) | (sizes >= words))
-    if len(bad):
-        raise ReadError(
-            f"Expected a number of corners and as many corners in {rows.place(bad[0])}, "
-            f"found {sizes[bad[0]]:.17g} and {words[bad[0]] - 1}; mend that line"
-        )
+    sizes, corners = rows.lists()
     kept = np.flatnonzero(sizes >= 3)
-    offsets = np.concatenate([[0], np.cumsum(sizes[kept], dtype=np.int64)])
-    first = np.repeat(starts[kept] + 1 - offsets[:-1], np.diff(offsets))
-    corners = rows.values[first + np.arange(offsets[-1])]
+    corners = corners[np.repeat(sizes >= 3, sizes)]
+    offsets = np.concatenate([[0], np.cumsum(sizes[kept])])
     bad = np.flatnonzero((corners != np.floor(corners)) | (corners < 0) | (corners >= points))
     if len(bad):
         face = kept[np.searchsorted(offsets, bad[0], side="right") - 1]

@@ -20,26 +20,7 @@ from ..arrays import Ints, Longs
 from ..axis.polygon_triangles import axis_triangles
 from ..errors import ExportError
 from . import write_triangles
-from .writing import write_rows
-
-_HEADER = """ply
-format ascii 1.0
-comment medial axis: radius of the empty ball per vertex, angles in radians
-{comment}element vertex {vertices}
-property double x
-property double y
-property double z
-property double radius
-element face {triangles}
-property list uchar int vertex_indices
-property double theta
-property double rho
-property int side
-property int generator_p
-property int generator_q
-property int facet
-end_header
-"""
+from .writing import Columns, ply_places, ply_properties, write_rows
 
 
 def left_out(axis: Any) -> str:
@@ -78,14 +59,23 @@ def write_lines(axis: Any, stream: BinaryIO) -> None:
 def write_ply(axis: Any, stream: BinaryIO) -> None:
     _require_facets(axis)
     triangles, facet = _triangles(axis)
-    header = _HEADER.format(
-        comment=comment_of(axis, "comment"), vertices=len(axis.vertices), triangles=len(triangles)
-    )
+    vertices: Columns = {**ply_places(axis.vertices), "radius": ("<f8", axis.radius)}
+    faces: Columns = {name: ("<f8", getattr(axis, name)[facet]) for name in ("theta", "rho")}
+    p, q = axis.generators[facet].T
+    whole = {"side": axis.side[facet], "generator_p": p, "generator_q": q, "facet": facet}
+    faces |= {name: ("<i4", column) for name, column in whole.items()}
+    header = f"""ply
+format ascii 1.0
+comment medial axis: radius of the empty ball per vertex, angles in radians
+{comment_of(axis, "comment")}element vertex {len(axis.vertices)}
+{ply_properties(vertices)}element face {len(triangles)}
+property list uchar int vertex_indices
+{ply_properties(faces)}end_header
+"""
     stream.write(header.encode("ascii"))
     write_rows(stream, "%.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
-    values = (getattr(axis, name)[facet] for name in ("theta", "rho", "side", "generators"))
     row = "3 %d %d %d %.17g %.17g %d %d %d %d\n"
-    write_rows(stream, row, triangles, *values, facet)
+    write_rows(stream, row, triangles, *(column for _, column in faces.values()))
 
 
 def write_obj(axis: Any, stream: BinaryIO) -> None:

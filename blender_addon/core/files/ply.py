@@ -201,18 +201,7 @@ class _Text:
 
     def _read_lists(self, element: _Element, rows: Rows) -> _Table:
         """Return the corners of each row; numbers after them are ignored."""
-        before = _numbers_before_corners(element, self._name)
-        starts, words = rows.offsets[:-1] + before, np.diff(rows.offsets) - before
-        sizes = np.where(words > 0, rows.values[np.minimum(starts, len(rows.values) - 1)], -1)
-        bad = np.flatnonzero((sizes != np.floor(sizes)) | (sizes < 0) | (sizes >= words))
-        if len(bad):
-            raise ReadError(
-                f"Expected a number of corners and as many corners in {rows.place(bad[0])}, found "
-                "another number of them; mend that line"
-            )
-        sizes = sizes.astype(np.int64)
-        first = np.repeat(starts + 1 - (np.cumsum(sizes) - sizes), sizes)
-        corners = rows.values[first + np.arange(sizes.sum())]
+        sizes, corners = rows.lists(_numbers_before_corners(element, self._name))
         bad = np.flatnonzero(corners != np.floor(corners))
         if len(bad):
             raise ReadError(

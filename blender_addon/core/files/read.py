@@ -8,31 +8,23 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import OutOfMemoryError, ReadError
+from .dae import read_dae
 from .imported_points import ImportedPoints
 from .numpy_arrays import read_npy, read_npz
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
-from .text import Lines, open_lines
 from .xyz import read_xyz, read_xyzn
 
-
-def _of_lines(read: Callable[[Lines], ImportedPoints]) -> Callable[[Path], ImportedPoints]:
-    def read_file(path: Path) -> ImportedPoints:
-        with open_lines(path) as lines:
-            return read(lines)
-
-    return read_file
-
-
 READERS: dict[str, Callable[[Path], ImportedPoints]] = {
-    ".xyz": _of_lines(read_xyz),
-    ".xyzn": _of_lines(read_xyzn),
+    ".xyz": read_xyz,
+    ".xyzn": read_xyzn,
     ".off": read_off,
     ".ply": read_ply,
     ".obj": read_obj,
     ".stl": read_stl,
+    ".dae": read_dae,
     ".npy": read_npy,
     ".npz": read_npz,
 }

@@ -31,9 +31,8 @@ def read_stl(path: str | os.PathLike) -> ImportedPoints:
         data = stream.read()
     count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
     beyond = len(data) - _HEADER - count * _TRIANGLE.itemsize
-    if (
-        len(data) >= _HEADER and beyond >= 0
-    ):  # letters in its place make a count that no text is long enough for
+    # Letters in its place make a count that no text is long enough for.
+    if len(data) >= _HEADER and beyond >= 0:
         corners = np.frombuffer(data, _TRIANGLE, count, _HEADER)["corners"].reshape(-1, 3)
     elif _IS_TEXT.search(data) and b"\0" not in data:
         corners, beyond = _read_text(data, name), 0

@@ -63,6 +63,20 @@ class Rows:
             )
         return self.values.reshape(len(self), -1)
 
+    def lists(self, before: int = 0) -> tuple[Longs, Floats]:
+        """Return the sizes and the corners of the lists that each row has behind so many numbers."""
+        starts, words = self.offsets[:-1] + before, np.diff(self.offsets) - before
+        sizes = np.where(words > 0, self.values[np.minimum(starts, len(self.values) - 1)], -1)
+        bad = np.flatnonzero((sizes != np.floor(sizes)) | (sizes < 0) | (sizes >= words))
+        if len(bad):
+            raise ReadError(
+                f"Expected a number of corners and as many corners in {self.place(bad[0])}, "
+                f"found {sizes[bad[0]]:.17g} and {words[bad[0]] - 1}; mend that line"
+            )
+        sizes = sizes.astype(np.int64)
+        first = np.repeat(starts + 1 - (np.cumsum(sizes) - sizes), sizes)
+        return sizes, self.values[first + np.arange(sizes.sum())]
+
     def place(self, row: int) -> str:
         """Return the place of a row in the file, for messages."""
         return f"line {self.lines[row]} of '{self.name}'"

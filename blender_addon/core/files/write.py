@@ -122,9 +122,10 @@ def _placed(axis: MedialAxis, transform: Floats) -> MedialAxis:
 
 
 def _write_polygons(
-    stream: BinaryIO, row_of: Callable[[int], str], counts: Ints, tokens: Ints
+    axis: MedialAxis, stream: BinaryIO, row_of: Callable[[int], str], least: int = 0
 ) -> None:
-    """Write one line per polygon; `row_of(count)` is the %-format of a polygon with `count` corners."""
+    """Write a line per facet; `row_of(count)` is its %-format for `count` corners, which count from `least`."""
+    counts, tokens = np.diff(axis.face_offsets), axis.face_vertices + least
     rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
     ends = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
     for start in range(0, len(counts), CHUNK):
@@ -156,12 +157,7 @@ def _edges(triangles: Ints, alone: Ints, vertex_count: int) -> Longs:
 def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
     stream.write(plain_triangles.comment_of(axis, "#").encode("ascii"))
     write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
-    _write_polygons(
-        stream,
-        lambda count: "f" + " %d" * count + "\n",
-        np.diff(axis.face_offsets),
-        axis.face_vertices + 1,  # OBJ counts from 1
-    )
+    _write_polygons(axis, stream, lambda count: "f" + " %d" * count + "\n", least=1)
     plain_triangles.write_lines(axis, stream)
 
 
@@ -169,12 +165,7 @@ def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
     faces = axis.facets + len(axis.edges)
     stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), faces))
     write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
-    _write_polygons(
-        stream,
-        lambda count: str(count) + " %d" * count + "\n",
-        np.diff(axis.face_offsets),
-        axis.face_vertices,
-    )
+    _write_polygons(axis, stream, lambda count: str(count) + " %d" * count + "\n")
     write_rows(stream, "2 %d %d\n", axis.edges)  # OFF has no other edges
 
 

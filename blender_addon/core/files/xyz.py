@@ -3,37 +3,39 @@
 
 from __future__ import annotations
 
+import os
 import re
 
 from ..arrays import Floats
 from ..errors import ReadError
 from .imported_points import ImportedPoints, are_normals, left_out
-from .text import Lines, is_number
+from .text import Lines, is_number, open_lines
 
 
-def read_xyz(lines: Lines) -> ImportedPoints:
+def read_xyz(path: str | os.PathLike) -> ImportedPoints:
     """Read points; columns 4 to 6 are normals if `are_normals` accepts them, for some files have colours there."""
-    table = _read_table(lines, 3, "x y z")
+    table = _read_table(path, 3, "x y z")
     normals = table[:, 3:6] if table.shape[1] >= 6 and are_normals(table[:, 3:6]) else None
     return _found(table, normals)
 
 
-def read_xyzn(lines: Lines) -> ImportedPoints:
+def read_xyzn(path: str | os.PathLike) -> ImportedPoints:
     """Read points; columns 4 to 6 are normals, because the extension says so."""
-    table = _read_table(lines, 6, "x y z nx ny nz")
+    table = _read_table(path, 6, "x y z nx ny nz")
     return _found(table, table[:, 3:6])
 
 
-def _read_table(lines: Lines, least: int, what: str) -> Floats:
+def _read_table(path: str | os.PathLike, least: int, what: str) -> Floats:
     """Return the points, (n, k); a count and a title may precede them."""
-    stated = _skip_count(lines)
-    _skip_title(lines, stated)
-    rows = lines.rows(delimiter=next((mark for mark in ";," if mark in lines.line), ""))
+    with open_lines(path) as lines:
+        stated = _skip_count(lines)
+        _skip_title(lines, stated)
+        rows = lines.rows(delimiter=next((mark for mark in ";," if mark in lines.line), ""))
     if len(rows) == 0:
-        raise ReadError(f"Expected points, found none in '{lines.name}'; choose another file")
+        raise ReadError(f"Expected points, found none in '{rows.name}'; choose another file")
     if stated is not None and stated != len(rows):
         raise ReadError(
-            f"Expected {stated} points, as '{lines.name}' says in its first line, found {len(rows)}; "
+            f"Expected {stated} points, as '{rows.name}' says in its first line, found {len(rows)}; "
             "take the file from its source again, or remove that line"
         )
     return rows.table(least, what)

@@ -36,7 +36,7 @@ class Axis(Product):
     formats = FORMATS
     usual = "ma"
     help = """\
-INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
+INPUT     .off .obj .ply .stl .dae .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
           Without INPUT, inside Blender: the file that is open.
 OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), or a folder; {name} is
           the object or the file, {file} the file, #### the frame.

@@ -37,7 +37,7 @@ class Robot(Product):
     reads_shapes = False
     read = staticmethod(read_robot)
     help = """\
-INPUT     .urdf or MuJoCo's .xml, with primitives and with meshes in .stl .obj .ply .off
+INPUT     .urdf or MuJoCo's .xml, with primitives and with meshes in .dae .stl .obj .ply .off
 OUTPUT    the same format and bytes, but other collision geometry; links of spheres alone stay, and in .xml those
           of capsules. In .urdf a capsule is a cylinder and two spheres.
 

@@ -3,17 +3,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from ..arrays import Floats
 from ..errors import ReadError
-from ..portable_angle import cosine
+from ..portable_angle import turn_about
 from ..small_matrices import times
 from .xml_spans import Element
-
-HALF_PI = math.pi / 2
 
 
 def numbers_of(
@@ -25,11 +21,8 @@ def numbers_of(
         numbers = np.array([float(word) for word in text.split()])
     except ValueError:
         numbers = np.empty(0)
-    if (
-        len(numbers) != count
-        or not np.isfinite(numbers).all()
-        or not (signed or (numbers > 0).all())
-    ):
+    right = len(numbers) == count and np.isfinite(numbers).all()
+    if not right or not (signed or (numbers > 0).all()):
         what = "number" if count == 1 else "numbers"
         above = "" if signed else " above 0"
         raise ReadError(
@@ -42,10 +35,6 @@ def turn_of(angles: Floats, order: str) -> Floats:
     """Return the matrix of turns one after the other: about axes that stay, 'XYZ', or that are turned along, 'xyz'."""
     turn = np.identity(3)
     for angle, letter in zip(angles.tolist(), order, strict=True):
-        axis, cos, sin = "xyz".index(letter.lower()), cosine(angle), cosine(angle - HALF_PI)
-        i, j = (axis + 1) % 3, (axis + 2) % 3
-        about = np.identity(3)
-        about[i, i] = about[j, j] = cos
-        about[i, j], about[j, i] = -sin, sin
+        about = turn_about(np.identity(3)["xyz".index(letter.lower())], angle)
         turn = times(about, turn.T) if letter.isupper() else times(turn, about.T)
     return turn

@@ -7,9 +7,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ReadError
-from ..portable_angle import cosine
+from ..portable_angle import turn_about
 from ..small_matrices import dot, length_of
-from .element_numbers import HALF_PI, numbers_of, turn_of
+from .element_numbers import numbers_of, turn_of
 from .primitive_meshes import Mesh, ball_mesh, box_mesh, cylinder_mesh
 from .xml_spans import Element
 
@@ -67,9 +67,7 @@ def _turn_of(geom: Element, unit: float, order: str) -> Floats:
         return np.column_stack([x, y, np.cross(x, y)])
     if "axisangle" in given:
         *axis, angle = numbers_of(geom, "axisangle", 4, signed=True).tolist()
-        half = unit * angle / 2
-        sine = cosine(half - HALF_PI)
-        return matrix_of(np.array([cosine(half), *sine * _unit(np.array(axis), geom)]), geom)
+        return turn_about(_unit(np.array(axis), geom), unit * angle)
     return matrix_of(numbers_of(geom, "quat", 4, "1 0 0 0", signed=True), geom)
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
@@ -52,10 +51,7 @@ class RobotFile:
     tag: str
     extensions: tuple[str, ...]
 
-    @cached_property
-    def frame(self) -> Floats:
-        """Return the identity: links have frames of their own."""
-        return np.identity(4)
+    frame = np.identity(4)  # links have frames of their own
 
     def with_shapes(self, shapes: Mapping[int, Balls]) -> bytes:
         """Return the file with balls and capsules as the collision geometry of some links, named by their rows."""
@@ -99,15 +95,8 @@ def _geometry_of(
     corners = [mesh[1] + start for mesh, start in zip(meshes, starts, strict=False)]
     triangles = np.concatenate(corners or [np.empty((0, 3))]).astype(np.int32)
     spans = tuple((element.start, element.end) for element in elements)
-    return LinkGeometry(
-        name,
-        np.concatenate(points),
-        triangles,
-        spans,
-        tuple(sorted(kinds)),
-        tuple(kept.items()),
-        problem,
-    )
+    shape = np.concatenate(points), triangles, spans, tuple(sorted(kinds))
+    return LinkGeometry(name, *shape, tuple(kept.items()), problem)
 
 
 def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:
