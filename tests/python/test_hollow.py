@@ -21,7 +21,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support import topology
 from support.crossing_triangles import crossing_pairs
 from support.distance import to_triangle
-from support.meshes import flip, icosphere, join, moved, read, shape_of, torus, write_off
+from support.meshes import flip, hull, icosphere, join, moved, read, shape_of, torus, write_off
 from support.thick_meshes import block
 from support.thin_solids import turned, union
 
@@ -36,14 +36,6 @@ def away(places, mesh):
     rows = np.linspace(0, len(places) - 1, 10 + 200_000 // len(corners)).astype(int)
     pairs = np.repeat(places[rows], len(corners), axis=0), np.tile(corners, (len(rows), 1, 1))
     return to_triangle(*pairs).reshape(len(rows), -1).min(axis=1)
-
-
-def hull(points):
-    """The triangles of a convex hull, outward."""
-    found = ConvexHull(points)
-    a, b, c = points[found.simplices].transpose(1, 0, 2)
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0
-    return np.where(inward[:, None], found.simplices[:, ::-1], found.simplices)
 
 
 def inner_volume(points, wall):
