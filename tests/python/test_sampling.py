@@ -336,6 +336,7 @@ SITES = (np.zeros((2, 3)), np.ones(2))
         ("one spacing for each", *TRIANGLE, {"sizing": (np.zeros((0, 3)), np.ones(0))}),
         ("spacings of the sites, found -1", *TRIANGLE, {"sizing": (np.eye(3), -np.ones(3))}),
         ("found (nan", *TRIANGLE, {"sizing": (np.full((2, 3), np.nan), np.ones(2))}),
+        ("mirrored_rows", *TRIANGLE, {"count": 9, "mirrored_rows": -1}),
         ("0 to 1024 threads", *TRIANGLE, {"count": 9, "threads": -1}),
     ],
 )

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from medial_axis.core.errors import ExportError, InvalidInputError
+from medial_axis.core.errors import ExportError
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -546,11 +546,6 @@ def test_nearest_and_patches(medial):
     for bad in ((triangles, flags[:2], 8), (triangles, flags, 7)):
         with pytest.raises(medial.InvalidInputError):
             medial.patches(*bad)
-
-
-def test_a_limit_is_no_negative_number():
-    with pytest.raises(InvalidInputError, match="limit"):
-        ThicknessSettings(limit=-1.0)
 
 
 # --- files
