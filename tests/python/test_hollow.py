@@ -5,7 +5,6 @@ import json
 import os
 import signal
 import time
-from functools import partial
 
 import numpy as np
 import pytest
@@ -83,17 +82,6 @@ def test_cavities_in_closed_form(name):
     places = (found.vertices[inner] * inside[:, :, None]).sum(axis=1)
     assert away(places, mesh).min() >= found.least > 0.94 * wall
     assert not len(crossing_pairs(found.vertices, inner))
-
-
-def test_any_number_of_threads_gives_the_same_bytes(medial, monkeypatch):
-    """There are more triangles in the cavity than one thread gets at a time."""
-    found = []
-    distances = medial.surface_distances
-    for threads in (1, 2):
-        monkeypatch.setattr(medial, "surface_distances", partial(distances, threads=threads))
-        made = hollowed(BLOCK, 0.1, voxel_size=0.05)
-        found.append((made.vertices.tobytes(), made.triangles.tobytes(), made.least, made.deepest))
-    assert len(made.triangles) - made.outer > 2048 and found[0] == found[1]
 
 
 class Stops(Progress):
