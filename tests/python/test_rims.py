@@ -18,7 +18,7 @@ OBLATE_RIM = 2 * math.pi * 0.75
 @pytest.mark.parametrize("name", TURN)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rims_are_no_saws(sampled, name, seed):
-    """That of the oblate ellipsoid, whose length is known, has it."""
+    """The rim of the oblate ellipsoid has its length, which is known."""
     _, _, hierarchy = sampled(name, 8000, seed)
     level = hierarchy.even(**CLEAN).extract(relaxed=True)
     facets = hierarchy.extract(**CLEAN)
