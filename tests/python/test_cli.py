@@ -156,15 +156,41 @@ def test_degrees_are_exact_where_it_matters():
         assert parse(["a.off", "a.ma", f"--theta={degrees}"]).work.settings.theta == radians
 
 
+# Options of lengths, by their commands.
+LENGTHS = (
+    "thickness --limit", "thicken --limit", "thicken --blend", "hollow --wall", "hollow --voxel-size",
+    "solidify --thickness", "midsurface --size",
+)  # fmt: skip
+WRONG = {
+    "thickness a.stl --limit 1": "found one path",
+    "balls a.obj": "found one path",
+    "a.off a.ma --vertices -1": "Expected --vertices of 0 or more",
+    "a.off a.ma --vertices 5 --side outer": "Expected --side inner with --vertices",
+    "a.off a.ma --memory-limit -5": "Expected memory_limit from 0 to",
+    "a.off a.ma --above-limit swap": "invalid choice",
+    "thickness a.off a.json --limit -1": "a finite length of at least 0",
+    "thickness a.off a.json --theta 20": "unrecognized",
+    "thickness a.off a.json --edges round": "invalid choice",
+    "thickness a.off a.ma": ".csv, .html, .json or .ply",
+    "robot a.urdf b.urdf --balls 0": "Expected count from 1",
+    "robot a.urdf b.urdf --tolerance -1": "a finite length of at least 0",
+    "robot a.urdf b.urdf --balls 2 --capsules 2": "not allowed with",
+    "robot a.urdf b.json": ".urdf, .xml or .mjcf",
+    "robot a.urdf a.urdf": "replaces no input",
+    **{
+        f"{command} {length}".replace(" ", " a.off b/ ", 1): "a finite length of at least 0"
+        for command in LENGTHS
+        for length in ("inf", "1e400", "nan")
+    },
+}
+
+
 @pytest.mark.parametrize(
     "words, said",
     [
         ([], "required"),
         (["a.off"], "found one path"),
-        *(
-            (words.split(), "found one path")
-            for words in ("thickness a.stl --limit 1", "balls a.obj")
-        ),
+        *((words.split(), said) for words, said in WRONG.items()),
         (["a.off", "a.ma", "--theta", "x"], "invalid float"),
         (["a.off", "a.ma", "--theta", "200"], "Expected theta from"),
         (["a.off", "a.ma", "--side", "left"], "invalid choice"),

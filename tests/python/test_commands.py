@@ -10,6 +10,7 @@ import shlex
 
 import pytest
 from medial_axis import cli
+from medial_axis.core.files.write_triangles import write_stl
 from support.package import ROOT
 from support.shape_meshes import of_ellipsoid
 from support.shapes import SHAPES
@@ -142,21 +143,12 @@ def test_command_line(command, tmp_path, monkeypatch, capsys):
 def write(path):
     """An ellipsoid: points with normals, or triangles where the format knows nothing else."""
     if path.suffix == ".stl":
-        points, triangles = of_ellipsoid(SHAPES["ellipsoid"], subdivisions=2)
-        path.write_text(stl(points[triangles]))
+        with open(path, "wb") as stream:
+            write_stl(*of_ellipsoid(SHAPES["ellipsoid"], subdivisions=2), stream)
     elif path.suffix == ".xyz":
         write_egg(path)
     else:
         write_input(path)
-
-
-def stl(triangles):
-    lines = ["solid s"]
-    for corners in triangles.tolist():
-        lines += ["facet normal 0 0 0", "outer loop"]
-        lines += ["vertex {} {} {}".format(*corner) for corner in corners]
-        lines += ["endloop", "endfacet"]
-    return "\n".join([*lines, "endsolid s\n"])
 
 
 @pytest.mark.parametrize("command", [c for c in ALL if "build_addon.py " in c])

@@ -10,6 +10,7 @@ from medial_axis import library
 from medial_axis.core.machine import native
 from support import meshes
 from support.crossing_triangles import crossing_pairs
+from support.swept import swept
 
 RIGHT = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
 
@@ -30,16 +31,8 @@ def rope(apart, rings=60, sides=12):
     along = np.gradient(line, axis=0)
     side = np.cross(along, (0, 0, 1))
     side /= np.linalg.norm(side, axis=1)[:, None]
-    up = np.cross(side, along / np.linalg.norm(along, axis=1)[:, None])
-    angle = 2 * np.pi * np.arange(sides) / sides
-    ring = np.cos(angle)[:, None] * side[:, None] + np.sin(angle)[:, None] * up[:, None]
-    points = np.concatenate(((line[:, None] + 0.1 * ring).reshape(-1, 3), line[[0, -1]]))
-    a = np.arange(rings * sides).reshape(rings, sides)
-    b = np.roll(a, -1, axis=1)
-    quads = np.stack((a[:-1], b[:-1], b[1:], a[1:]), axis=-1).reshape(-1, 4)
-    first = np.column_stack((np.full(sides, len(points) - 2), a[0], b[0]))
-    last = np.column_stack((np.full(sides, len(points) - 1), b[-1], a[-1]))
-    return points, np.concatenate((quads[:, [0, 2, 1]], quads[:, [0, 3, 2]], first, last))
+    up = np.cross(along / np.linalg.norm(along, axis=1)[:, None], side)
+    return swept(line, 0.1 * side, 0.1 * up, sides)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -11,7 +11,7 @@ from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSett
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.skeleton.compute import compute_skeleton
 from support import meshes, messy, resampled
-from support.levels import betti_of_mesh
+from support.levels import betti_of_mesh, tips
 from support.plates import prism
 from support.shapes import SHAPES, Cyclide, RoundCone, frustum
 from support.thick_meshes import block, pipe
@@ -239,12 +239,6 @@ def test_a_tube_of_few_samples_and_one_point_of_all(medial):
 
 
 # --- round limbs
-
-
-def tips(level):
-    degree = np.bincount(level.wires.ravel(), minlength=len(level.vertices))
-    degree[level.face_vertices] = 0
-    return int(np.sum(degree == 1))
 
 
 def test_a_capsule_is_a_round_limb(sampled):

@@ -12,7 +12,7 @@ import random
 import numpy as np
 import pytest
 from medial_axis import cli
-from support.meshes import box, write_off
+from support.meshes import box, write_obj, write_off
 
 from tests.support.fuzz import repeats
 
@@ -34,10 +34,8 @@ def folder(tmp_path, monkeypatch):
     mesh = box((3, 3, 3), (0.5, 0.4, 0.3))
     write_off(tmp_path / "a.off", mesh)
     write_off(tmp_path / "sub" / "a.off", mesh)
-    rows = [f"v {x} {y} {z}" for x, y, z in mesh[0]]
-    rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh[1]]
     for name in ("b.obj", "with space.obj", "sub/b.obj"):
-        (tmp_path / name).write_text("\n".join(rows))
+        write_obj(tmp_path / name, mesh)
     np.savez(tmp_path / "c.npz", points=mesh[0], triangles=mesh[1])
     os.link(tmp_path / "a.off", tmp_path / "hard.off")
     os.symlink("b.obj", tmp_path / "soft.obj")

@@ -5,7 +5,6 @@ import json
 import os
 import signal
 import time
-from functools import partial
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support import topology
 from support.crossing_triangles import crossing_pairs
 from support.distance import to_triangle
-from support.meshes import flip, icosphere, join, moved, read, shape_of, torus, write_off
+from support.meshes import flip, hull, icosphere, join, moved, read, shape_of, torus, write_off
 from support.thick_meshes import block
 from support.thin_solids import turned, union
 
@@ -36,14 +35,6 @@ def away(places, mesh):
     rows = np.linspace(0, len(places) - 1, 10 + 200_000 // len(corners)).astype(int)
     pairs = np.repeat(places[rows], len(corners), axis=0), np.tile(corners, (len(rows), 1, 1))
     return to_triangle(*pairs).reshape(len(rows), -1).min(axis=1)
-
-
-def hull(points):
-    """The triangles of a convex hull, outward."""
-    found = ConvexHull(points)
-    a, b, c = points[found.simplices].transpose(1, 0, 2)
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0
-    return np.where(inward[:, None], found.simplices[:, ::-1], found.simplices)
 
 
 def inner_volume(points, wall):
@@ -91,17 +82,6 @@ def test_cavities_in_closed_form(name):
     places = (found.vertices[inner] * inside[:, :, None]).sum(axis=1)
     assert away(places, mesh).min() >= found.least > 0.94 * wall
     assert not len(crossing_pairs(found.vertices, inner))
-
-
-def test_any_number_of_threads_gives_the_same_bytes(medial, monkeypatch):
-    """There are more triangles in the cavity than one thread gets at a time."""
-    found = []
-    distances = medial.surface_distances
-    for threads in (1, 2):
-        monkeypatch.setattr(medial, "surface_distances", partial(distances, threads=threads))
-        made = hollowed(BLOCK, 0.1, voxel_size=0.05)
-        found.append((made.vertices.tobytes(), made.triangles.tobytes(), made.least, made.deepest))
-    assert len(made.triangles) - made.outer > 2048 and found[0] == found[1]
 
 
 class Stops(Progress):

@@ -151,23 +151,19 @@ def test_rooms_of_core_form_no_circle():
     assert circle({room: seen for room, seen in below.items() if room != "core"}) == []
 
 
-def test_package_imports_are_relative(python_file):
-    _, (outside, _) = python_file
-    assert not {
-        name for name in outside if name.split(".")[0] in {"medial_axis", "blender_addon", "bl_ext"}
-    }
+# How the names of rooms begin -> the packages that none of them imports.
+NEVER = {
+    "": {"medial_axis", "blender_addon", "bl_ext"},  # imports inside the package are relative
+    "core": BLENDER_MODULES,
+    "ui": {"numpy", "scipy"},
+}
 
 
-def test_core_imports_no_blender(python_file):
+@pytest.mark.parametrize("start", NEVER)
+def test_some_packages_are_never_imported(python_file, start):
     room, (outside, _) = python_file
-    if room.startswith("core"):
-        assert not {name for name in outside if name.split(".")[0] in BLENDER_MODULES}
-
-
-def test_ui_imports_no_numpy(python_file):
-    room, (outside, _) = python_file
-    if room.startswith("ui"):
-        assert not {name for name in outside if name.split(".")[0] in {"numpy", "scipy"}}
+    if room.startswith(start):
+        assert not {name for name in outside if name.split(".")[0] in NEVER[start]}
 
 
 @pytest.mark.parametrize(

@@ -146,6 +146,7 @@ ROWS = "Expected points as rows of three numbers"
         (([[0, 0, 0], [1, 1]],), {}, ROWS),
         ((["abc"],), {}, ROWS),
         (([[np.nan, 0, 0]] * 5,), {}, "Expected finite"),
+        ((np.nan * POINTS, TRIANGLES), {}, "Expected finite"),
         ((POINTS, [[0.0, 1.0, 2.0]]), {}, "Expected triangles as rows of three integers"),
         ((POINTS, [[0, 1, 1 << 40]]), {}, "Expected rows of points in triangles, found"),
         ((POINTS, [[0, 1, 9999]]), {}, "9999"),
@@ -158,7 +159,6 @@ ROWS = "Expected points as rows of three numbers"
         ((POINTS,), {"smooth": "yes"}, "Expected smooth as bool, found 'yes'"),
         ((POINTS,), {"side": "top"}, "Expected side as one of 'automatic', 'inner'.*'top'"),
         ((POINTS,), {"side": medial_axis.Rule.BOTH}, "Expected side as one of"),
-        ((POINTS,), {"sides": "surface"}, "Expected faces for Inside Decided By Surface"),
     ],
 )
 def test_wrong_input_is_one_sentence(given, settings, said):
@@ -219,8 +219,3 @@ def test_what_needs_another_analysis_is_not_extracted():
         if name not in FORM and name not in ("theta", "rho", "rule", "criteria", "limit_set"):
             with pytest.raises(medial_axis.InvalidInputError, match="compute again"):
                 medial_axis.extract(found, **{name: OPTIONS[name].default})
-
-
-def test_points_in_a_plane_are_refused():
-    with pytest.raises(medial_axis.DegenerateInputError):
-        medial_axis.compute(egg(50) * (1, 1, 0))

@@ -84,21 +84,17 @@ def test_blender_that_runs_is_in_the_table_and_others_are_skipped_by_name(played
 
 
 @pytest.mark.parametrize(
-    "wrong, told",
+    "count, wrong, told",
     [
-        ({"code": 1}, "tests: 3 passed, 1 skipped"),
-        ({"colours": 1}, "empty pictures: Cycles"),
-        ({"export": "ab"}, "the two zips give different exports"),
+        (1, {"code": 1}, "Nowhere 1: tests: 3 passed, 1 skipped"),
+        (1, {"colours": 1}, "Nowhere 1: empty pictures: Cycles"),
+        (1, {"export": "ab"}, "Nowhere 1: the two zips give different exports"),
+        (2, {"export": "aabb"}, "the same mesh gives different .ma files"),
     ],
 )
-def test_failure_in_a_blender_that_runs_is_a_failure(played, wrong, told):
-    code, out, _ = played(Fake(), **wrong)
-    assert code == 1 and f"FAILED Nowhere 1: {told}" in out
-
-
-def test_different_exports_in_two_blenders_are_a_failure(played):
-    code, out, _ = played(Fake(), Fake(), export="aabb")
-    assert code == 1 and "FAILED the same mesh gives different .ma files" in out
+def test_failure_in_blenders_that_run_is_a_failure(played, count, wrong, told):
+    code, out, _ = played(*(Fake() for _ in range(count)), **wrong)
+    assert code == 1 and f"FAILED {told}" in out
 
 
 def test_command_that_fails_is_told_with_its_last_line(matrix, tmp_path):

@@ -31,7 +31,7 @@ from medial_axis.core.settings import (
     Side,
 )
 from medial_axis.core.shape.shape import Shape
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import cKDTree
 from support import meshes
 from support.clouds import on_ellipsoid
 
@@ -54,11 +54,7 @@ def cloud(count=20_000):
 def ball(rings=60):
     """A closed mesh of about 2 rings^2 vertices on an ellipsoid."""
     points = egg(2 * rings * rings)
-    triangles = ConvexHull(points).simplices.astype(np.int32)
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
-    triangles[inward] = triangles[inward][:, ::-1]
-    return Shape(points, triangles)
+    return Shape(points, meshes.hull(points))
 
 
 @pytest.fixture(autouse=True)
@@ -390,12 +386,6 @@ def test_command_line_thins_and_resumes(here, capsys):
         said = capsys.readouterr()
         assert f'"status": "{status}"' in said.out
         assert (run, status) != (thin, "done") or "evenly spread, were kept" in said.err
-
-
-def test_command_line_says_what_it_expects(here, capsys):
-    assert cli.main(["egg.npy", "egg.ma", "--memory-limit", "-5"]) == cli.USAGE
-    assert "Expected memory_limit from 0 to" in capsys.readouterr().err
-    assert cli.main(["egg.npy", "egg.ma", "--above-limit", "swap"]) == cli.USAGE
 
 
 def test_a_cloud_that_needs_too_much_is_not_unpacked(tmp_path, capsys, monkeypatch):

@@ -25,6 +25,7 @@ SOLID = (
 )
 LONG, FEW = 0.5, 0.002  # of the radius where it begins; share of the vertices
 LONGEST = 2.0
+LEAST = {"human_woman.obj": 1000}  # facets; its skin has folds, where it crosses itself
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +74,7 @@ def assert_sentences(result):
 @pytest.mark.parametrize("name", [*SMALL, *HUGE])
 def test_files(medial, computed, name):
     mesh, result = computed(name)
-    assert result.axis.facets > 100
+    assert result.axis.facets > LEAST.get(name, 100)
     assert result.chosen.reason and result.sides.reason
     assert_sentences(result)
     if medial.open_edges(*mesh) == 0:
@@ -124,18 +125,9 @@ def test_loose_vertices_of_the_bunny_are_no_samples(computed):
     assert any(f"{loose:,}" in text for text in result.warnings)
 
 
-def test_components_of_the_engine(medial, computed):
+def test_components_of_the_engine(computed):
     """The axis has a piece in each of the 7 parts that is large enough to be sampled."""
-    mesh, result = computed("engine_parts.ply")
-    assert facet_pieces(result.axis) >= 4
-    assert_inside(result.axis, mesh)
-
-
-def test_skin_folds_of_the_woman(computed):
-    """Where the surface crosses itself the axis stays inside."""
-    mesh, result = computed("human_woman.obj")
-    assert result.axis.facets > 1000
-    assert_inside(result.axis, mesh)
+    assert facet_pieces(computed("engine_parts.ply")[1].axis) >= 4
 
 
 def test_walls_inside_the_openscad_part_bound_nothing(computed):

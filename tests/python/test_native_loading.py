@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the compiled module is loaded from: its file, or a copy in memory, each in a Python of its own."""
+"""Where the compiled module is loaded from, its file or a copy in memory, and what two of them do in one process.
+
+Each is tried in a Python of its own.
+"""
 
 import os
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -35,12 +39,17 @@ def refused(*_):
 """
 
 
-def play(text):
-    """The output of a script in a new Python that has the add-on's package."""
-    script = START + textwrap.dedent(text)
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+def said_by(script, *words):
+    """The output of a script in a new Python."""
+    command = [sys.executable, "-c", script, *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
-    return done.stdout.split()
+    return done.stdout
+
+
+def play(text):
+    """The words that a script says in a new Python that has the add-on's package."""
+    return said_by(START + textwrap.dedent(text)).split()
 
 
 @pytest.fixture
@@ -129,3 +138,56 @@ def test_module_of_a_wheel_is_taken_where_there_is_none_if_it_has_the_same_versi
     )
     expected = str(module) if taken else "Expected the compiled module for"
     assert " ".join(said).startswith(expected)
+
+
+# Two packages, each with errors of its own.
+TWO_PACKAGES = """
+import importlib.util, sys
+import numpy as np
+
+def load(name, folder):
+    spec = importlib.util.spec_from_file_location(
+        name, folder + "/__init__.py", submodule_search_locations=[folder])
+    package = sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+    return package
+
+points = np.random.default_rng(0).normal(size=(2000, 3))
+points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
+one, other = load("medial_axis", sys.argv[1]), load("another_name", sys.argv[2])
+axes = [package.compute(points).axis for package in (one, other)]
+assert axes[0].facets > 30 and axes[0].vertices.tobytes() == axes[1].vertices.tobytes()
+for package in (one, other, one):
+    try:
+        package.compute(points * (1, 1, 0))
+    except package.DegenerateInputError:
+        continue
+    raise SystemExit("an error of another package")
+print("both work")
+"""
+
+
+def test_two_packages_live_side_by_side(tmp_path):
+    """Blender may have the extension and pip a package: two folders, two names."""
+    copy = shutil.copytree(PACKAGE, tmp_path / "copy", ignore=shutil.ignore_patterns("__pycache__"))
+    assert said_by(TWO_PACKAGES, PACKAGE, copy) == "both work\n"
+
+
+TRY = """
+import sys, _xxsubinterpreters as interpreters
+other = interpreters.create()
+load = "import sys; sys.path.insert(0, {!r}); import _medial".format(sys.argv[1])
+try:
+    interpreters.run_string(other, load)
+except interpreters.RunFailedError as error:
+    print(error)
+exec(load)
+print(sys.modules["_medial"].__name__)
+"""
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 13), reason="_xxsubinterpreters has another name")
+def test_subinterpreters_are_refused(medial):
+    refused, name = said_by(TRY, Path(medial.__file__).parent).splitlines()
+    assert "Expected the main interpreter of the process, found a subinterpreter" in refused
+    assert name == "_medial"

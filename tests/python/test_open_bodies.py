@@ -17,25 +17,16 @@ from medial_axis.core.shape.outward_faces import outward_shape
 from medial_axis.core.shape.shape import OF_SHEETS, REPEATED, Shape
 from medial_axis.core.thickness.thicken import thicken
 from support import meshes
-from support.meshes import shape_of
+from support.meshes import moved, shape_of
+from support.messy import soup
 from support.thick_meshes import block
 
 BOX = block(1.0, 1.0, 1.0)
 OPEN, SMALL = (BOX[0], BOX[1][1:]), block(0.8, 0.8, 0.8, (0.5, 0.1, 0.1))
 
 
-def moved(mesh, *way):
-    return mesh[0] + way, mesh[1]
-
-
 def twice(mesh, again=(0, 2, 1)):
     return mesh[0], np.concatenate((mesh[1], mesh[1][:, again]))
-
-
-def loose(mesh):
-    """Every face with vertices of its own."""
-    points = mesh[0][mesh[1]].reshape(-1, 3)
-    return points, np.arange(len(points)).reshape(-1, 3)
 
 
 def wavy(count=12, size=1.0):
@@ -48,7 +39,7 @@ def boxes(count, seed):
     """Boxes, most of which overlap; the fourth lacks a triangle."""
     random = np.random.default_rng(seed)
     size = (0.3, 1, 3)
-    found = [moved(block(*random.uniform(*size)), *random.uniform(0, 1, 3)) for _ in range(count)]
+    found = [moved(block(*random.uniform(*size)), random.uniform(0, 1, 3)) for _ in range(count)]
     found[3] = (found[3][0], found[3][1][1:])
     return meshes.join(*found)
 
@@ -61,11 +52,11 @@ ONE = {
     "overlapping boxes": meshes.join(OPEN, SMALL),
     "an assembly": boxes(20, 0),
     "both sides of each face": twice(OPEN),
-    "both sides with vertices of their own": loose(twice(OPEN)),
+    "both sides with vertices of their own": soup(twice(OPEN)),
     "every face twice": twice(OPEN, (0, 1, 2)),
     "every face four times": twice(twice(OPEN)),
-    "a wavy sheet beside a box": meshes.join(BOX, moved(wavy(size=0.5), 2, 0, 0)),
-    "a large sheet beside overlapping boxes": meshes.join(BOX, SMALL, moved(wavy(), 3, 0, 0)),
+    "a wavy sheet beside a box": meshes.join(BOX, moved(wavy(size=0.5), (2, 0, 0))),
+    "a large sheet beside overlapping boxes": meshes.join(BOX, SMALL, moved(wavy(), (3, 0, 0))),
     "a triangle in a box": meshes.join(BOX, (0.3 * np.eye(3) + (0.1, 0.2, 0.3), [[0, 1, 2]])),
 }
 
@@ -79,18 +70,18 @@ def test_one_solid(name):
 
 def test_an_open_body_of_doubles_stays_beside_a_closed_one():
     """To leave out all of it would leave no edge open."""
-    found = computed(meshes.join(twice(OPEN), moved(BOX, 2, 0, 0)))
+    found = computed(meshes.join(twice(OPEN), moved(BOX, (2, 0, 0))))
     assert found.topology.startswith("2 pieces, no loop, no cavity")
 
 
 def test_a_wall_between_two_rooms_is_no_body_of_doubles():
-    read = outward_shape(shape_of(meshes.join(BOX, moved(BOX, 1, 0, 0))))
+    read = outward_shape(shape_of(meshes.join(BOX, moved(BOX, (1, 0, 0)))))
     assert (read.reading == REPEATED).sum() in (0, 4) and read.volume == pytest.approx(2.0)
 
 
 def test_sheets_alone_are_refused():
     with pytest.raises(DegenerateInputError, match="found an open sheet"):
-        computed(meshes.join(wavy(), moved(wavy(), 0, 3, 1)))
+        computed(meshes.join(wavy(), moved(wavy(), (0, 3, 1))))
 
 
 @pytest.mark.parametrize("sheet", [wavy(), (wavy()[0] * (1, 1, 0.3), wavy()[1])])

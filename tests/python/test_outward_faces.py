@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
-from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.machine import native
 from medial_axis.core.settings import SamplingMode, Settings
 from medial_axis.core.shape.outward_faces import outward_shape
@@ -199,8 +198,3 @@ def test_a_shape_says_how_it_was_read():
     none = dict.fromkeys(("repeated", "without_corners", "of_sheets"), 0)
     assert read.reading_counts == {"turned": 12, **none}
     assert shape.reading is None and outward_shape(read) is read
-
-
-def test_bad_rows_are_one_sentence():
-    with pytest.raises(InvalidInputError, match="finite"):
-        compute((np.full((8, 3), np.nan), cube()[1]))

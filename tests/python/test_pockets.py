@@ -11,6 +11,7 @@ from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from support import meshes, reference
+from support.thick_meshes import TETRAHEDRON
 
 pytestmark = pytest.mark.oracle
 
@@ -81,10 +82,6 @@ BALL = meshes.icosphere(2)
 CUBE = meshes.box((1, 1, 1), (0.5, 0.5, 0.5))
 
 
-def beside(mesh, size, x):
-    return size * mesh[0] + (x, 0.0, 0.0), mesh[1]
-
-
 def bodies_seen(study, points, bodies, vertices):
     """In which bodies inner cells have their circumcentres, and in which places lie."""
     centres = circumcentres(points, study.delaunay(points)[0])
@@ -99,7 +96,7 @@ def bodies_seen(study, points, bodies, vertices):
 def test_no_body_is_lost(study, body, gap, size):
     """A body counts even if it is smaller and closer than the distance between samples, which are the vertices."""
     low = (size * body[0][:, 0]).min()
-    other = beside(body, size, BALL[0][:, 0].max() + gap - low)
+    other = meshes.moved(body, (BALL[0][:, 0].max() + gap - low, 0.0, 0.0), size)
     points, triangles = meshes.join(BALL, other)
     hierarchy = study.MedialAnalysis(points, triangles).hierarchy()
     cells, vertices = bodies_seen(study, points, (BALL, other), hierarchy.vertices)
@@ -109,14 +106,8 @@ def test_no_body_is_lost(study, body, gap, size):
         assert hierarchy.betti[0] == sum(cells) == 2
 
 
-def tetrahedron(size, x):
-    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1.0]])
-    faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], np.int32)
-    return size * corners + (x, 0, 0), faces
-
-
 def test_a_body_of_four_samples_is_a_piece(medial):
-    points, triangles = meshes.join(BALL, tetrahedron(0.02, 1.05))
+    points, triangles = meshes.join(BALL, meshes.moved(TETRAHEDRON, (1.05, 0, 0), 0.02))
     analysis = medial.MedialAnalysis(points, triangles)
     assert analysis.hierarchy().betti[0] == analysis.hierarchy(bodies=2).betti[0] == 2
     assert analysis.hierarchy(bodies=1).betti == (1, 0, 0)
@@ -139,9 +130,10 @@ def test_a_crumb_is_no_piece(data_file, name, loops):
 
 
 def test_parts_that_are_all_small_stay(medial):
-    pair = meshes.join(tetrahedron(1.0, 0.0), tetrahedron(1.0, 9.0))
+    pair = meshes.join(TETRAHEDRON, meshes.moved(TETRAHEDRON, (9.0, 0, 0)))
     assert medial.MedialAnalysis(*pair).hierarchy(bodies=1).betti == (2, 0, 0)
-    three = meshes.join(BALL, *(tetrahedron(0.02, x) for x in (1.05, 2.0)))
+    small = [meshes.moved(TETRAHEDRON, (x, 0, 0), 0.02) for x in (1.05, 2.0)]
+    three = meshes.join(BALL, *small)
     for bodies in (1, 2):
         assert medial.MedialAnalysis(*three).hierarchy(bodies=bodies).betti == (bodies, 0, 0)
 

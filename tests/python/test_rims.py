@@ -18,18 +18,13 @@ OBLATE_RIM = 2 * math.pi * 0.75
 @pytest.mark.parametrize("name", TURN)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_rims_are_no_saws(sampled, name, seed):
+    """The rim of the oblate ellipsoid has its length, which is known."""
     _, _, hierarchy = sampled(name, 8000, seed)
     level = hierarchy.even(**CLEAN).extract(relaxed=True)
     facets = hierarchy.extract(**CLEAN)
     assert rim_turns(facets).mean() > 45
     assert rim_turns(level).mean() < TURN[name]
-
-
-@pytest.mark.parametrize("seed", [0, 1])
-def test_rim_of_an_oblate_has_its_length(sampled, seed):
-    _, _, hierarchy = sampled("oblate", 8000, seed)
-    level = hierarchy.even(**CLEAN).extract(relaxed=True)
-    assert 0.98 < rim_length(level) / OBLATE_RIM < 1.05
+    assert name != "oblate" or 0.98 < rim_length(level) / OBLATE_RIM < 1.05
 
 
 def test_balls_of_moved_vertices_are_empty(sampled):

@@ -219,16 +219,6 @@ def test_geometry_that_cannot_be_read_is_told(tmp_path, geometry, said):
     assert not (tmp_path / "b.urdf").exists()
 
 
-@pytest.mark.parametrize(
-    "words", [("--balls", "0"), ("--tolerance", "-1"), ("--balls", "2", "--capsules", "2")]
-)
-def test_wrong_usage(arm, tmp_path, words, capsys):
-    assert run(arm, tmp_path / "out.urdf", *words) == cli.USAGE
-    assert run(arm, tmp_path / "out.json") == cli.USAGE
-    assert run(arm, arm) == cli.USAGE
-    capsys.readouterr()
-
-
 def test_primitives_are_closed_and_hold_the_round_ones():
     for mesh, volume in (
         (box_mesh(np.array([1.0, 2.0, 3.0])), 6.0),

@@ -125,6 +125,7 @@ REFUSED = [
     ("dust", {**BY_VERTICES, "side": "outer"}, "that enclose nothing; .* or choose side Both"),
     ("scan", {"sides": "normals"}, "attribute 'normal' of the points, .* not all zero"),
     ("scan", {"sides": "surface"}, "faces for Inside Decided By Surface, found points only"),
+    ("scan", {"sides": "wrap"}, "faces for Inside Decided By Wrap, found points only"),
     ("scan", {"sampling": "surface"}, "faces for Sampling Surface, found points only"),
     ("scan", {"sampling": "adaptive"}, "faces for Sampling Adaptive, found points only"),
     ("egg", {"sides": "normals", **BY_VERTICES}, "attribute 'normal' of the points"),

@@ -79,11 +79,6 @@ def test_no_rows(medial):
     assert all(len(in_row(beside(samples, *EDGES[0], face), 0)) == 0 for face in (1, 2))
 
 
-def test_a_negative_number_of_rows_is_refused(medial):
-    with pytest.raises(medial.InvalidInputError, match="mirrored_rows"):
-        medial.sample_surface(*meshes.box(), count=100, mirrored_rows=-1)
-
-
 def inner_axis(medial, name, rotation, **options):
     """Largest distance of its vertices from the true axis in ball radii, p99 of its points' distance in percent of
     the diagonal, and how many vertices lie outside."""

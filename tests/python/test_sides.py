@@ -28,10 +28,6 @@ def two_balls(subdivisions, radius, centre):
     )
 
 
-def squashed(mesh, *sizes):
-    return mesh[0] * sizes, mesh[1]
-
-
 def noisy(mesh, amount=2e-3):
     return meshes.jitter(mesh, amount)
 
@@ -44,7 +40,7 @@ def with_loose_points(mesh, count=100):
 
 def sliver_tower():
     """A tall prism with vertices only at its ends: triangles longer than the spacing of samples by far."""
-    return noisy(squashed(meshes.box((3, 3, 1), (1.0, 1.0, 1.0)), 0.2, 0.2, 3.0), 1e-3)
+    return noisy(meshes.moved(meshes.box((3, 3, 1), (1.0, 1.0, 1.0)), scale=(0.2, 0.2, 3.0)), 1e-3)
 
 
 CLOSED = {
@@ -53,7 +49,7 @@ CLOSED = {
     "icosahedron": noisy(meshes.icosphere(0)),
     "exact icosphere": meshes.icosphere(2),
     "exact uv sphere": meshes.uv_sphere(24, 12),
-    "ellipsoid": noisy(squashed(meshes.icosphere(3), 1.0, 0.6, 0.3)),
+    "ellipsoid": noisy(meshes.moved(meshes.icosphere(3), scale=(1.0, 0.6, 0.3))),
     "torus": noisy(meshes.torus()),
     "coarse torus": noisy(meshes.torus(around=9, across=5)),
     "box": meshes.box((10, 8, 5)),
@@ -61,7 +57,7 @@ CLOSED = {
     "cube": meshes.box((1, 1, 1)),
     "noisy cube": noisy(meshes.box((1, 1, 1)), 0.05),
     "long triangles": sliver_tower(),
-    "plate": noisy(squashed(meshes.icosphere(2), 1.0, 1.0, 0.01), 1e-4),
+    "plate": noisy(meshes.moved(meshes.icosphere(2), scale=(1.0, 1.0, 0.01)), 1e-4),
     "nested shell": noisy(meshes.nested_shell(3)),
     "coarse nested shell": noisy(meshes.nested_shell(1)),
     "ball in a cavity": noisy(

@@ -90,10 +90,6 @@ def centres_and_normals(mesh):
     return mesh[0][mesh[1]].mean(axis=1), topology.unit_normals(*mesh)
 
 
-def moved(mesh, *shift):
-    return mesh[0] + shift, mesh[1]
-
-
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float) - (0.5, 0.5, 0)
 SHEET = SQUARE, np.array([[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]], np.int32)
 OPENED = meshes.below(BALL, 0.7)
@@ -101,8 +97,10 @@ SOUPS = {
     "ball": BALL,
     "inside out": meshes.flip(BALL),
     "shell": MESHES["shell"],
-    "overlapping": meshes.join(BALL, moved(BALL, 0.9, 0.1, 0.05)),
-    "three": meshes.join(BALL, moved(BALL, 0.9, 0.1, 0.05), moved(BALL, 0.2, 0.9, 0.1)),
+    "overlapping": meshes.join(BALL, meshes.moved(BALL, (0.9, 0.1, 0.05))),
+    "three": meshes.join(
+        BALL, meshes.moved(BALL, (0.9, 0.1, 0.05)), meshes.moved(BALL, (0.2, 0.9, 0.1))
+    ),
     "ball in a ball": meshes.join(BALL, (0.4 * BALL[0], BALL[1])),
     "wall inside": meshes.join(meshes.box((6, 6, 6), (1.0, 1.0, 1.0)), SHEET),
     "sheet": SHEET,

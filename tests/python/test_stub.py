@@ -134,12 +134,9 @@ def test_class_members_are_in_both(compiled):
         assert found == {m for m in wanted if not m.startswith("_")}, name
 
 
-def test_functions_have_the_parameters_of_the_stub(compiled):
+def test_functions_and_methods_have_the_parameters_of_the_stub(compiled):
     for name, node in compiled.stub.functions.items():
         assert_same_parameters(getattr(compiled.module, name), node)
-
-
-def test_methods_have_the_parameters_of_the_stub(compiled):
     for owner, name, node in compiled.stub.methods():
         assert_same_parameters(getattr(getattr(compiled.module, owner), name), node)
 

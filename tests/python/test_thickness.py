@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from medial_axis.core.errors import ExportError, InvalidInputError
+from medial_axis.core.errors import ExportError
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -25,7 +25,7 @@ from medial_axis.core.thickness.write_thickness import export_thickness
 from support import inputs, meshes, resampled, thin_solids, topology
 from support.meshes import join, lattice, shape_of
 from support.plates import prism
-from support.thick_meshes import block, ellipsoid, lathe, rays, shell, shrinking_ball
+from support.thick_meshes import TETRAHEDRON, block, ellipsoid, lathe, rays, shell, shrinking_ball
 
 pytestmark = pytest.mark.oracle
 
@@ -344,14 +344,13 @@ def test_a_solid_that_faces_nothing_has_no_gap():
 
 def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
     """No two places of a tetrahedron face each other, and of a cube only the middles of its faces do."""
-    corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
-    found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
+    found = measure(TETRAHEDRON)
     # The corner that is opposite to the face of the largest ball is out of its reach.
     assert np.median(found.lengths) == pytest.approx(2 / np.sqrt(3), rel=0.02)
     cube = measure(block(1, 1, 1))
     assert np.median(cube.lengths) == pytest.approx(1.0, rel=0.01)
     assert np.percentile(cube.lengths, 1) > 0.95
-    assert measure((corners, found.shape.triangles), edges=Edges.BALL).minimum < 0.5
+    assert measure(TETRAHEDRON, edges=Edges.BALL).minimum < 0.5
 
 
 def disc(sides, height):
@@ -547,11 +546,6 @@ def test_nearest_and_patches(medial):
     for bad in ((triangles, flags[:2], 8), (triangles, flags, 7)):
         with pytest.raises(medial.InvalidInputError):
             medial.patches(*bad)
-
-
-def test_a_limit_is_no_negative_number():
-    with pytest.raises(InvalidInputError, match="limit"):
-        ThicknessSettings(limit=-1.0)
 
 
 # --- files

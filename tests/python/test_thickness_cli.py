@@ -37,24 +37,6 @@ def test_exit_code_says_whether_something_is_thin(box, tmp_path, capsys):
     assert ", kept" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    "command, option",
-    [
-        ("thickness", "--limit"),
-        ("thicken", "--limit"),
-        ("thicken", "--blend"),
-        ("hollow", "--wall"),
-        ("hollow", "--voxel-size"),
-        ("solidify", "--thickness"),
-        ("midsurface", "--size"),
-    ],
-)
-@pytest.mark.parametrize("length", ["inf", "1e400", "nan"])
-def test_a_length_is_finite(box, tmp_path, capsys, command, option, length):
-    assert cli.main([command, str(box), f"{tmp_path}/", option, length]) == cli.USAGE
-    assert "a finite length of at least 0" in capsys.readouterr().err
-
-
 def test_a_name_of_number_signs_stays_where_there_are_no_frames(box, tmp_path):
     source = Path(box).rename(tmp_path / "####.off")
     assert run(source, f"{tmp_path}/out/", "--format", "csv") == cli.DONE
@@ -83,13 +65,6 @@ def test_many_inputs_and_one_that_cannot_be_used(box, tmp_path, capsys):
     assert report["share_below"] == pytest.approx(1.0, abs=0.01) and report["status"] == "done"
     assert run(tmp_path / "none.off", plate, f"{folder}/", "--limit", 0.2) == cli.INPUT
     capsys.readouterr()
-
-
-@pytest.mark.parametrize("words", [("--limit", "-1"), ("--theta", "20"), ("--edges", "round")])
-def test_wrong_usage(box, tmp_path, words, capsys):
-    assert run(box, tmp_path / "box.json", *words) == cli.USAGE
-    assert run(box, tmp_path / "box.ma") == cli.USAGE
-    assert ".csv, .html, .json or .ply" in capsys.readouterr().err
 
 
 def test_a_page_shows_the_thin_places_in_colours(box, tmp_path):

@@ -2,6 +2,7 @@
 """Folds beside rims: vertices inside of a sheet that lie beyond its rim come back, along the sheet."""
 
 import numpy as np
+import pytest
 from medial_axis.core.mid_surface.unfolded_sheets import unfolded
 
 # A square round a vertex, as a fan.
@@ -17,17 +18,19 @@ def found(inner, free=(1.0, 1.0, 0.0)):
     return unfolded(places, FAN, normals, stays, lambda _, ways: ways * np.array(free))
 
 
-def test_a_vertex_beyond_the_rim_comes_back_along_the_sheet():
-    places = found((3.0, 1.0, 0.25))
+@pytest.mark.parametrize(
+    "inner, free, place",
+    [
+        ((3.0, 1.0, 0.25), (1.0, 1.0, 0.0), (1.0, 1.0, 0.25)),  # along the sheet
+        ((3.0, 0.5, 0.0), (1.0, 0.0, 0.0), (1.0, 0.5, 0.0)),  # along the line where sheets meet
+    ],
+)
+def test_a_vertex_beyond_the_rim_comes_back(inner, free, place):
+    places = found(inner, free)
     assert np.array_equal(places[:4], RING)
-    np.testing.assert_allclose(places[4], (1.0, 1.0, 0.25), atol=1e-15)
+    np.testing.assert_allclose(places[4], place, atol=1e-15)
 
 
 def test_what_is_not_folded_stays():
     inner = (1.9, 0.3, 0.0)
     assert np.array_equal(found(inner)[4], inner)
-
-
-def test_a_vertex_where_sheets_meet_comes_back_along_their_line():
-    places = found((3.0, 0.5, 0.0), free=(1.0, 0.0, 0.0))
-    np.testing.assert_allclose(places[4], (1.0, 0.5, 0.0), atol=1e-15)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from support.package import ROOT
+from test_build_addon import write
 
 from tools.packaging import pack
 
@@ -44,14 +45,8 @@ def run(command, folder, **environment):
     return done.returncode, done.stdout
 
 
-def put(folder, files):
-    for name, content in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(content)
-
-
 def stand_in(folder, name, script='echo "$0" "$@" >> asked'):
-    put(folder, {f"bin/{name}": f"#!/bin/sh\n{script}\n"})
+    write(folder, {f"bin/{name}": f"#!/bin/sh\n{script}\n"})
     (folder / "bin" / name).chmod(0o755)
 
 
@@ -70,7 +65,7 @@ HASHES = "aa  cube: solid\nbb  cube: wrap\ncc  ball\n"
     ],
 )
 def test_hashes_of_systems_must_be_equal_but_for_wraps(tmp_path, other, equal):
-    put(tmp_path, {"hashes-linux-x64/hashes.txt": HASHES, "hashes-windows/hashes.txt": ""})
+    write(tmp_path, {"hashes-linux-x64/hashes.txt": HASHES, "hashes-windows/hashes.txt": ""})
     (tmp_path / "hashes-windows/hashes.txt").write_bytes(other.encode())
     code, said = run(step("systems", "same_bytes", "diff"), tmp_path)
     assert (code == 0) is equal, said
@@ -78,7 +73,7 @@ def test_hashes_of_systems_must_be_equal_but_for_wraps(tmp_path, other, equal):
 
 def test_modules_of_all_systems_are_packed(tmp_path):
     named = {**MODULES, "modules-macos": ["_medial.cpython-311-darwin.so"]}
-    put(tmp_path, {f"modules/{a}/{name}": a for a, names in named.items() for name in names})
+    write(tmp_path, {f"modules/{a}/{name}": a for a, names in named.items() for name in names})
     code, said = run(step("systems", "zips", "blender_addon/lib"), tmp_path)
     assert code == 0, said
     packed = [path.name for path in (tmp_path / "blender_addon/lib").iterdir()]
@@ -94,12 +89,12 @@ def zips(tmp_path, monkeypatch):
     monkeypatch.setattr(pack.paths, "DIST", Path("dist"))
     names = [pack.archive_for(platform).name for platform in ("", *pack.PLATFORMS)]
     for folder in ("dist", "zips"):
-        put(tmp_path, {f"{folder}/{name}": name for name in names})
+        write(tmp_path, {f"{folder}/{name}": name for name in names})
     return names
 
 
 def test_a_release_has_zips_wheels_and_hashes(tmp_path, zips):
-    put(tmp_path, {"wheels/a.whl": "", "wheels/b.whl": "", "hashes/hashes.txt": HASHES})
+    write(tmp_path, {"wheels/a.whl": "", "wheels/b.whl": "", "hashes/hashes.txt": HASHES})
     stand_in(tmp_path, "gh", 'for word in "$@"; do echo "$word" >> asked; done')
     names = {"GITHUB_REF_NAME": "v1.2.3", "GITHUB_REPOSITORY": "a/b"}
     code, said = run(step("release", "draft", "gh release"), tmp_path, **names)

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute, refilter
-from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.settings import Between, SamplingMode, Settings, SidesFrom, ThicknessSettings
 from medial_axis.core.shape.shape import Shape
 from medial_axis.core.thickness.thickness import measure_thickness
@@ -81,12 +80,6 @@ def test_the_same_faces_without_a_wrap_have_their_own_analysis():
         for sides in (SidesFrom.WRAP, SidesFrom.AUTOMATIC)
     )
     assert wrapped.key != plain.key and plain.axis.radius.max() == pytest.approx(0.2, rel=1e-9)
-
-
-def test_points_alone_are_refused():
-    cloud = np.random.default_rng(0).random((100, 3)), np.zeros((0, 3), np.int32)
-    with pytest.raises(InvalidInputError, match="Expected faces for Inside Decided By Wrap"):
-        compute(*cloud, Settings(sides=SidesFrom.WRAP))
 
 
 def test_the_command_line_wraps(tmp_path, capsys):

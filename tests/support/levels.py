@@ -114,6 +114,14 @@ def betti_of_mesh(level, wires=None):
     return pieces, len(level.vertices) - len(edges) + len(level.face_offsets) - 1
 
 
+def tips(level, wires=None):
+    """The number of ends of wires that nothing else reaches."""
+    wires = level.wires if wires is None else wires
+    degree = np.bincount(wires.ravel(), minlength=len(level.vertices))
+    degree[level.face_vertices] = 0
+    return int(np.sum(degree == 1))
+
+
 def facet_pieces(faces):
     """Sets of polygons that hang together, if only by a vertex."""
     if len(faces.generators) == 0:

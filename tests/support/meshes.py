@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -41,29 +42,9 @@ def split(mesh: Mesh) -> Mesh:
 
 def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
     """Blender's UV sphere: exactly cospherical up to rounding, rows of cocircular points."""
-    polar = np.arange(1, rings) * np.pi / rings
-    turn = np.arange(segments) * 2 * np.pi / segments
-    rows = np.stack(
-        [
-            np.outer(np.sin(polar), np.cos(turn)),
-            np.outer(np.sin(polar), np.sin(turn)),
-            np.outer(np.cos(polar), np.ones(segments)),
-        ],
-        axis=-1,
-    )
-    vertices = np.concatenate([[[0, 0, 1.0]], rows.reshape(-1, 3), [[0, 0, -1.0]]]) * radius
-    i = np.arange(segments)
-    j, last = (i + 1) % segments, len(vertices) - 1
-    triangles = [np.column_stack((np.zeros_like(i), 1 + i, 1 + j))]
-    for row in range(rings - 2):
-        a, b = 1 + row * segments, 1 + (row + 1) * segments
-        triangles += [
-            np.column_stack((a + i, b + i, b + j)),
-            np.column_stack((a + i, b + j, a + j)),
-        ]
-    end = 1 + (rings - 2) * segments
-    triangles.append(np.column_stack((np.full_like(i, last), end + j, end + i)))
-    return vertices, np.concatenate(triangles).astype(np.int32)
+    polar = np.arange(rings + 1) * np.pi / rings
+    vertices, triangles = revolved_to_axis([*zip(np.sin(polar), np.cos(polar))], segments)
+    return flip((vertices * radius, triangles))
 
 
 def lattice(ids: NDArray[np.int64]) -> NDArray[np.int32]:
@@ -82,6 +63,20 @@ def revolved(profile: list[tuple[float, float]], around: int) -> Mesh:
     ]
     ids = np.arange(len(profile) * around).reshape(-1, around)
     return np.concatenate(rings), lattice(np.pad(ids, (0, 1), "wrap").T)
+
+
+def revolved_to_axis(profile: list[tuple[float, float]], around: int) -> Mesh:
+    """A profile (rho, z) from the z axis back to it, upward for an outward surface, turned round that axis."""
+    low, high = ((0.0, 0.0, end[1]) for end in (profile[0], profile[-1]))
+    vertices = np.vstack([[low], revolved(profile[1:-1], around)[0], [high]])
+    ids = np.arange(1, len(vertices) - 1).reshape(-1, around)
+    rows = list(zip(ids, np.roll(ids, -1, axis=1)))
+    (a, b), (c, d) = rows[0], rows[-1]
+    triangles = [np.column_stack((0 * a, b, a))]
+    for (a, b), (e, f) in pairwise(rows):
+        triangles += [np.column_stack((a, b, f)), np.column_stack((a, f, e))]
+    triangles.append(np.column_stack((c, d, np.full(around, len(vertices) - 1))))
+    return vertices, np.vstack(triangles).astype(np.int32)
 
 
 def torus(
@@ -215,6 +210,16 @@ def jitter(mesh: Mesh, amount: float, seed: int = 0) -> Mesh:
 def nested_shell(subdivisions: int = 2) -> Mesh:
     """A ball with a round cavity: the inner sphere faces inward."""
     return join(icosphere(subdivisions, 1.0), flip(icosphere(subdivisions, 0.6, (0.1, 0.05, 0.0))))
+
+
+def hull(points: NDArray[np.float64]) -> NDArray[np.int32]:
+    """The triangles of a convex hull, outward."""
+    from scipy.spatial import ConvexHull  # which not every Blender has
+
+    found = ConvexHull(points)
+    a, b, c = points[found.simplices].transpose(1, 0, 2)
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0
+    return np.where(inward[:, None], found.simplices[:, ::-1], found.simplices)
 
 
 def write_off(path: Path, mesh: Mesh) -> str:

@@ -7,7 +7,7 @@ Each judge is written from the definition and shares nothing with the add-on.
 import numpy as np
 
 from .inputs import of_any_processor
-from .meshes import Mesh, icosphere, join
+from .meshes import Mesh, icosphere, join, revolved_to_axis
 
 _CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) - 0.5
 _FACES = np.array(
@@ -17,6 +17,11 @@ _FACES = np.array(
         *((0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
     ],
     np.int32,
+)
+
+TETRAHEDRON = (
+    np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float),
+    np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)], np.int32),
 )
 
 
@@ -37,24 +42,7 @@ def ellipsoid(axes: tuple = (1.0, 0.7, 0.5), subdivisions: int = 5) -> Mesh:
 
 def lathe(profile: list[tuple[float, float]], around: int = 96) -> Mesh:
     """Turned about z: the profile is (radius, z) upwards, from the axis to the axis."""
-    turn = 2 * np.pi * np.arange(around) / around
-    rings = [
-        np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z)))
-        for r, z in profile[1:-1]
-    ]
-    low, high = (0.0, 0.0, profile[0][1]), (0.0, 0.0, profile[-1][1])
-    vertices = np.vstack([[low], *rings, [high]])
-    i = np.arange(around)
-    j, last = (i + 1) % around, 1 + (len(rings) - 1) * around
-    triangles = [np.column_stack((np.zeros_like(i), 1 + j, 1 + i))]
-    for ring in range(len(rings) - 1):
-        a, b = 1 + ring * around, 1 + (ring + 1) * around
-        triangles += [
-            np.column_stack((a + i, a + j, b + j)),
-            np.column_stack((a + i, b + j, b + i)),
-        ]
-    triangles.append(np.column_stack((last + i, last + j, np.full_like(i, len(vertices) - 1))))
-    return vertices, np.vstack(triangles).astype(np.int32)
+    return revolved_to_axis(profile, around)
 
 
 def pipe(around: int, low: float, high: float, wall: float, length: float) -> Mesh:

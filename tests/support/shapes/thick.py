@@ -107,8 +107,23 @@ class Torus(Shape):
         return self.big * np.column_stack((np.cos(u), np.sin(u), np.zeros(count)))
 
 
+class OnSegment(Shape):
+    """The axis is the segment |x| <= length."""
+
+    length: float
+
+    def axis_distance(self, x: Array) -> Array:
+        return distance.to_segment(x, np.array([-self.length, 0, 0]), np.array([self.length, 0, 0]))
+
+    def axis_points(self, count: int, seed: int = 0) -> Array:
+        points = np.zeros((count, 3))
+        points[:, 0] = (np.random.default_rng(seed).random(count) * 2 - 1) * self.length
+        points[:2, 0] = (-self.length, self.length)
+        return points
+
+
 @dataclass(frozen=True)
-class Capsule(Shape):
+class Capsule(OnSegment):
     """The segment |x| <= length, thickened by a ball."""
 
     length: float = 1.0
@@ -130,17 +145,8 @@ class Capsule(Shape):
         points[:, 0] += core
         return rng.permutation(points)
 
-    def axis_distance(self, x: Array) -> Array:
-        return distance.to_segment(x, np.array([-self.length, 0, 0]), np.array([self.length, 0, 0]))
-
     def field(self, x: Array) -> Array:
         return self.axis_distance(x) - self.radius
-
-    def axis_points(self, count: int, seed: int = 0) -> Array:
-        points = np.zeros((count, 3))
-        points[:, 0] = (np.random.default_rng(seed).random(count) * 2 - 1) * self.length
-        points[:2, 0] = (-self.length, self.length)
-        return points
 
 
 @dataclass(frozen=True)

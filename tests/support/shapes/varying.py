@@ -10,10 +10,11 @@ from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares
 from .ellipsoids import Ellipsoid
+from .thick import OnSegment
 
 
 @dataclass(frozen=True)
-class RoundCone(Shape):
+class RoundCone(OnSegment):
     """The convex hull of two balls: the axis is the segment |x| <= length between their centres, on which the radius
     falls evenly from `big` to `small`. It has no outer axis."""
 
@@ -68,15 +69,6 @@ class RoundCone(Shape):
         centre = self._centre(x)
         away = np.sqrt((x[:, 0] - centre) ** 2 + x[:, 1] ** 2 + x[:, 2] ** 2)
         return away - self.axis_radius_at(centre)
-
-    def axis_distance(self, x: Array) -> Array:
-        return distance.to_segment(x, np.array([-self.length, 0, 0]), np.array([self.length, 0, 0]))
-
-    def axis_points(self, count: int, seed: int = 0) -> Array:
-        points = np.zeros((count, 3))
-        points[:, 0] = (np.random.default_rng(seed).random(count) * 2 - 1) * self.length
-        points[:2, 0] = (-self.length, self.length)
-        return points
 
     def axis_radius(self, x: Array) -> Array:
         return self.axis_radius_at(x[:, 0])
