@@ -980,7 +980,7 @@ class BallSettings(Options):
     """The number of balls, and what they promise."""
 
     count: int = integer(
-        "Balls",
+        "Count",
         "How many balls, or capsules, there are at most",
         default=64,
         limits=(1, 100_000),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reconstruct Surface (Tight Cocone): the object that is made, made again, or not made at all."""
+"""Reconstruct Surface: the object that is made, made again, or not made at all."""
 
 import bmesh
 import bpy

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rows that the tab has before the first click and after it."""
 
+import re
 from types import SimpleNamespace
 
 import bpy
@@ -44,6 +45,28 @@ class Layout:
         """It is no row."""
 
 
+class Names(Layout):
+    """Keeps the names that are drawn, each with what it stands for: a property, an operator, or itself."""
+
+    def label(self, text="", translate=True, **_):
+        if translate:  # neither figures, nor names of objects, nor sentences
+            self.rows.append((text, text))
+
+    def prop(self, owner, name, text=None, **_):
+        if text is None:
+            text = getattr(owner, "properties", owner).bl_rna.properties[name].name
+        self.rows.append((text, name))
+
+    def operator(self, name, text=None, **_):
+        group, _, word = name.partition(".")
+        known = getattr(getattr(bpy.ops, group), word).get_rna_type().name
+        self.rows.append((known if text is None else text, name))
+        return SimpleNamespace()
+
+    def menu(self, *_, **__):
+        """It has no name."""
+
+
 def seen(is_colour=False, width=400):
     """A viewport with a sidebar, as panels ask for it."""
     shading = SimpleNamespace(type="SOLID", color_type="VERTEX" if is_colour else "MATERIAL")
@@ -61,16 +84,19 @@ def seen(is_colour=False, width=400):
     )
 
 
+def panels(context):
+    """The panels of the tab that are there, without those of an add-on that was disabled."""
+    ours = (c for c in bpy.types.Panel.__subclasses__() if c.__module__.startswith(MODULE))
+    ours = [c for c in ours if c.is_registered and getattr(c, "bl_category", "") == "Medial Axis"]
+    return [cls for cls in ours if not hasattr(cls, "poll") or cls.poll(context)]
+
+
 def rows(context):
     """The rows of the tab as it is at first: headers of panels, and what is in those that are open."""
-    ours = (c for c in bpy.types.Panel.__subclasses__() if c.__module__.startswith(MODULE))
-    panels = [cls for cls in ours if cls.is_registered]  # not those of an add-on that was disabled
     found = Layout()
-    for cls in panels:
-        is_main = getattr(cls, "bl_idname", "") == MAIN
+    for cls in panels(context):
+        is_main = cls.__name__ == MAIN
         if not is_main and getattr(cls, "bl_parent_id", "") != MAIN:
-            continue
-        if hasattr(cls, "poll") and not cls.poll(context):
             continue
         if not is_main:
             found.label(text=cls.bl_label)
@@ -102,6 +128,19 @@ def drawn(panel):
     return found.rows
 
 
+def test_each_name_stands_for_one_thing_and_is_not_cut_off(newcomer):
+    suzanne(levels=0)
+    press("medial_axis", select_result=False)
+    names = {}
+    for cls in panels(seen()):
+        found = Names([(cls.bl_label, cls.bl_label)])
+        cls.draw(SimpleNamespace(layout=found), seen())
+        for text, thing in (row for row in found.rows if row and row[0]):
+            names.setdefault(text, set()).add(thing)
+    assert not [name for name, things in names.items() if len(things) > 1]
+    assert len(names) <= 65 and max(map(len, names)) <= 25
+
+
 def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words():
     suzanne(levels=0)
     found = drawn(bpy.types.VIEW3D_PT_medial_axis_thickness)
@@ -112,7 +151,7 @@ def test_rig_tells_of_the_skeleton_that_was_made():
     suzanne(levels=0)
     skeleton = press("medial_axis_skeleton")
     found = drawn(bpy.types.VIEW3D_PT_medial_axis_skeleton)
-    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found)
+    assert any(re.fullmatch(r"\d+ ends, \d+ branches", row[0]) for row in found)
     skeleton["ma_frame"] = 1  # as one of a sequence
     assert rows(seen())
     assert press("medial_axis_armature").type == "ARMATURE" and rows(seen())
