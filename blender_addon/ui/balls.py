@@ -101,12 +101,12 @@ def _shown(context):
 def _draw_figures(context, layout, thing):
     capsules = len(thing.data.edges)
     single = max(0, len(thing.data.vertices) - 2 * capsules)
-    out, away = (
-        length_text(context, thing[name]) for name in (stored.BALLS_OUTSIDE, stored.BALLS_FARTHEST)
-    )
     number = counted({"capsules": capsules, "balls": single})
-    held = f"{number} hold {100 * thing[stored.BALLS_COVERED]:.1f} % of the volume"
-    text = f"{held}, reach out by at most {out}, and leave no place farther than {away}"
+    text = f"{number} hold {100 * thing[stored.BALLS_COVERED]:.1f} % of the volume"
+    if (out := thing[stored.BALLS_OUTSIDE]) > 0.0:
+        text += f", reach out by at most {length_text(context, out)}"
+    if (away := thing[stored.BALLS_FARTHEST]) > 0.0:
+        text += f", leave no place farther than {length_text(context, away)} away"
     draw_wrapped(context, layout, text, "META_BALL")
 
 
