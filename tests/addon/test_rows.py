@@ -37,9 +37,7 @@ class Layout:
         return SimpleNamespace()
 
     label = prop = operator = menu = _item
-
-    def operator_menu_enum(self, name, _property, **words):
-        return self._item(name, **words)
+    operator_menu_enum = lambda self, name, _property, **words: self._item(name, **words)
 
     def separator(self):
         """It is no row."""
@@ -48,23 +46,17 @@ class Layout:
 class Names(Layout):
     """Keeps the names that are drawn, each with what it stands for: a property, an operator, or itself."""
 
-    def label(self, text="", translate=True, **_):
-        if translate:  # neither figures, nor names of objects, nor sentences
-            self.rows.append((text, text))
-
-    def prop(self, owner, name, text=None, **_):
+    def _item(self, *words, text=None, translate=True, **_):
+        *owners, thing = words or [text]
         if text is None:
-            text = getattr(owner, "properties", owner).bl_rna.properties[name].name
-        self.rows.append((text, name))
-
-    def operator(self, name, text=None, **_):
-        group, _, word = name.partition(".")
-        known = getattr(getattr(bpy.ops, group), word).get_rna_type().name
-        self.rows.append((known if text is None else text, name))
+            group, _, word = thing.partition(".")
+            known = getattr(getattr(bpy.ops, group), word).get_rna_type() if word else None
+            text = (known or owners[0].bl_rna.properties[thing]).name
+        if text and translate:  # neither figures, nor names of objects, nor sentences
+            self.rows.append((text, thing))
         return SimpleNamespace()
 
-    def menu(self, *_, **__):
-        """It has no name."""
+    label = prop = operator = menu = _item
 
 
 def seen(is_colour=False, width=400):
@@ -95,12 +87,10 @@ def rows(context):
     """The rows of the tab as it is at first: headers of panels, and what is in those that are open."""
     found = Layout()
     for cls in panels(context):
-        is_main = cls.__name__ == MAIN
-        if not is_main and getattr(cls, "bl_parent_id", "") != MAIN:
-            continue
-        if not is_main:
+        if is_inside := getattr(cls, "bl_parent_id", "") == MAIN:
             found.label(text=cls.bl_label)
-        if "DEFAULT_CLOSED" not in getattr(cls, "bl_options", ()):
+        is_open = "DEFAULT_CLOSED" not in getattr(cls, "bl_options", ())
+        if is_open and (is_inside or cls.__name__ == MAIN):
             cls.draw(SimpleNamespace(layout=found), context)
     return found.rows
 
@@ -113,32 +103,25 @@ def newcomer():
     preferences.property_unset("guided")
 
 
-def test_few_rows_before_the_first_click_and_after_it(newcomer):
+def test_few_rows_and_names_of_one_thing_each_before_the_first_click_and_after_it(newcomer):
     suzanne(levels=0)
     assert len(rows(seen())) <= 9, rows(seen())
     press("medial_axis", select_result=False)
     assert newcomer.guided, "who has computed an axis is no longer new"
     assert len(rows(seen())) <= 18, rows(seen())
     assert len(rows(seen(is_colour=True))) <= 18
+    found = Names()
+    for cls in panels(seen()):
+        found.label(text=cls.bl_label)
+        cls.draw(SimpleNamespace(layout=found), seen())
+    names = sorted(text for text, _ in set(filter(None, found.rows)))
+    assert len(set(names)) == len(names) <= 65 and max(map(len, names)) <= 25, names
 
 
 def drawn(panel):
     found = Layout()
     panel.draw(SimpleNamespace(layout=found), seen())
     return found.rows
-
-
-def test_each_name_stands_for_one_thing_and_is_not_cut_off(newcomer):
-    suzanne(levels=0)
-    press("medial_axis", select_result=False)
-    names = {}
-    for cls in panels(seen()):
-        found = Names([(cls.bl_label, cls.bl_label)])
-        cls.draw(SimpleNamespace(layout=found), seen())
-        for text, thing in (row for row in found.rows if row and row[0]):
-            names.setdefault(text, set()).add(thing)
-    assert not [name for name, things in names.items() if len(things) > 1]
-    assert len(names) <= 65 and max(map(len, names)) <= 25
 
 
 def test_hollow_and_unsolidify_need_no_measurement_and_have_room_for_their_words():

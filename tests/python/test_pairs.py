@@ -35,12 +35,7 @@ def in_pairs(solid):
 
 @pytest.mark.parametrize(
     "solid",
-    [
-        *PLATES,
-        thin_solids.profile_l(0.002),
-        thin_solids.cross(0.004),
-        thin_solids.stairs(0.004),
-    ],
+    [*PLATES, thin_solids.profile_l(0.002), thin_solids.cross(0.004), thin_solids.stairs(0.004)],
     ids=["plate", "foil", "T", "L", "cross", "stairs"],
 )
 def test_flat_thin_walls_have_whole_sheets_with_few_samples(solid):
@@ -221,11 +216,7 @@ def plate_with_a_hole(width, thickness):
 
 @pytest.mark.parametrize(
     "solid",
-    [
-        *PLATES,
-        thin_solids.shell(0.01),
-        plate_with_a_hole(0.006, 0.005),
-    ],
+    [*PLATES, thin_solids.shell(0.01), plate_with_a_hole(0.006, 0.005)],
     ids=["plate", "foil", "T", "shell", "hole"],
 )
 def test_automatic_finds_thin_walls_and_small_holes(solid):
