@@ -11,6 +11,7 @@ from ...bridge.thickness.heat_map import shown_heat
 from ...bridge.thickness.thickness_object import scale_on
 from ...core.axis.topology import betti_in_short
 from ...core.axis.verdict import Light, in_short
+from ...core.samples.density import share_text
 from ..base import manual
 from ..base.legend import draw_legend, draw_thickness_legend, light
 from ..base.plain_words import draw_told, warned
@@ -52,8 +53,8 @@ def draw_report(context, layout, report):
     """Draws how dense the samples are."""
     _draw_name(layout, report)
     limit = report.get(stored.EPSILON_LIMIT, 0.0)
-    share = 100 * report.get(stored.EPSILON_SHARE, 0.0)
-    draw_wrapped(context, layout, f"{share:.1f} % is sparse: epsilon above {limit:g}", "INFO")
+    share = share_text(report.get(stored.EPSILON_SHARE, 0.0))
+    draw_wrapped(context, layout, f"{share} is sparse: epsilon above {limit:g}", "INFO")
     for warning in report.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
     _draw_legend(context, layout, report)
@@ -86,9 +87,9 @@ def draw_report_details(context, layout, report):
     _draw_name(layout, report)
     median, most = (report.get(name, 0.0) for name in (stored.EPSILON_MEDIAN, stored.EPSILON_P95))
     worst = (report.get(stored.EPSILON_WORST) or [0.0])[0]
-    at_edges = 100 * report.get(stored.EPSILON_SHARE_OF_ALL, 0.0)
+    at_edges = share_text(report.get(stored.EPSILON_SHARE_OF_ALL, 0.0))
     text = f"Epsilon: median {median:.2f}, 95 % below {most:.2f}, at most {worst:.2g}"
-    draw_wrapped(context, layout, f"{text}; with sharp edges {at_edges:.1f} % is sparse", "INFO")
+    draw_wrapped(context, layout, f"{text}; with sharp edges {at_edges} is sparse", "INFO")
     draw_wrapped(context, layout, report.get(stored.SAMPLED, ""), "INFO")
 
 
