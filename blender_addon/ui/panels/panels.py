@@ -112,7 +112,6 @@ def _settle_when_changed(context):
     active, space = context.object, context.space_data
     now = (
         active and active.name,
-        len(context.view_layer.objects),
         obstacle(context),
         *note_of(context),
         current_job.job() is None,

@@ -77,11 +77,12 @@ def _draw_found(context, layout, carrier):
     if stored.THICKNESS_PLACE in carrier and least < float("inf"):
         _draw_place(column, f"Minimum: {length_text(context, least)}", "MINIMUM", "ZOOM_SELECTED")
     if carrier[stored.THICKNESS_LIMIT] > 0.0:
-        share = share_text(carrier[stored.THICKNESS_SHARE])
-        area = _area(context, carrier[stored.THICKNESS_AREA])
-        column.label(text=say(f"Thin: {area} ({share})"), icon="MESH_PLANE", translate=False)
+        if thin := carrier[stored.THICKNESS_AREA]:
+            share = share_text(carrier[stored.THICKNESS_SHARE])
+            text = say(f"Thin: {_area(context, thin)} ({share})")
+            column.label(text=text, icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
-        if carrier[stored.THICKNESS_AREA] > 0.0 and not carrier[stored.THICKNESS_GAP]:
+        if thin and not carrier[stored.THICKNESS_GAP]:
             _draw_thicken(context, layout)
     if shown_result(context) is None:  # else the panel of the result has both
         draw_colours(context, layout)
