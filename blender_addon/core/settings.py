@@ -175,7 +175,7 @@ class Settings(Options):
                 "what the samples cannot tell from noise",
             ),
             Form.PUBLISHED: (
-                "As Published",
+                "Raw",
                 "The facets that pass the conditions and no others, which may fall into pieces",
             ),
             Form.CURVE: (
@@ -669,8 +669,7 @@ class Look(Options):
     )
     smallest_island: float = number(
         "Smallest Island",
-        "Pieces of an axis as published with fewer of its facets than this are not shown; "
-        "0: all pieces",
+        "Pieces of a raw axis with fewer of its facets than this are not shown; 0: all pieces",
         default=0.0,
         limits=(0.0, 100.0),
         soft_maximum=5.0,
@@ -980,7 +979,7 @@ class BallSettings(Options):
     """The number of balls, and what they promise."""
 
     count: int = integer(
-        "Balls",
+        "Count",
         "How many balls, or capsules, there are at most",
         default=64,
         limits=(1, 100_000),

@@ -14,7 +14,7 @@ from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
 from .axis.compute_operator import SampledOperator
 from .axis.figures import length_text
 from .base.tab import Closed, draws_buttons, settings_column
-from .base.wrapped_text import draw_figures
+from .base.wrapped_text import counted, draw_wrapped
 from .settings.preferences import memory_limit
 from .settings.properties import (
     copy_settings,
@@ -77,7 +77,7 @@ class VIEW3D_PT_medial_axis_balls(Closed, bpy.types.Panel):
     def draw(self, context):
         settings = context.scene.medial_axis_balls
         column = settings_column(self.layout)
-        for name in BALL_OPTIONS:
+        for name in ("count", "shapes", "mode"):  # the others are in the panel of the operator
             column.prop(settings, name)
         if draws_buttons(self.layout):
             button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
@@ -99,16 +99,15 @@ def _shown(context):
 
 
 def _draw_figures(context, layout, thing):
-    layout.label(text=thing.name, icon="DOT", translate=False)
     capsules = len(thing.data.edges)
     single = max(0, len(thing.data.vertices) - 2 * capsules)
-    figures = {
-        "Capsules" if capsules else "Balls": f"{capsules + single:,}",
-        "Volume": f"{100 * thing[stored.BALLS_COVERED]:.1f} %",
-        "Outside": length_text(context, thing[stored.BALLS_OUTSIDE]),
-        "Surface Away": length_text(context, thing[stored.BALLS_FARTHEST]),
-    }
-    draw_figures(layout, figures)
+    number = counted({"capsules": capsules, "balls": single})
+    text = f"{number} hold {100 * thing[stored.BALLS_COVERED]:.1f} % of the volume"
+    if (out := thing[stored.BALLS_OUTSIDE]) > 0.0:
+        text += f", reach out by at most {length_text(context, out)}"
+    if (away := thing[stored.BALLS_FARTHEST]) > 0.0:
+        text += f", leave no place farther than {length_text(context, away)} away"
+    draw_wrapped(context, layout, text, "META_BALL")
 
 
 PROPERTIES = {

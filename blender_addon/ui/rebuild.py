@@ -5,16 +5,13 @@ import bpy
 
 from ..bridge.axis.read_axis import find_axis
 from ..bridge.mesh import stored
-from ..bridge.nodes.inputs import row_of
 from ..bridge.objects.step_back import are_back, seen, step_back
-from ..bridge.rebuilt_object import measure, modifier_of, rebuild, rebuilt_of, unrebuilt
+from ..bridge.rebuilt_object import measure, rebuild, rebuilt_of, unrebuilt
 from .axis.compute_operator import Alone
 from .base.plain_words import Needing, Telling
 from .base.select_made import bring_into_view_layer
-from .base.tab import Closed, settings_column
-from .base.wrapped_text import draw_figures
-
-_INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
+from .base.tab import Closed
+from .base.wrapped_text import draw_wrapped
 
 
 def _axis(context):
@@ -48,7 +45,7 @@ class OBJECT_OT_medial_axis_rebuild(Alone, Needing, Telling, bpy.types.Operator)
         if self.alone and context.mode == "OBJECT":
             made.select_set(True)
             context.view_layer.objects.active = made
-        return None if found is None else _sentence(made.name, found)
+        return found and f"'{made.name}' is {_sentence(found.mean, found.largest, found.volume)}"
 
 
 class OBJECT_OT_medial_axis_others(bpy.types.Operator):
@@ -67,10 +64,10 @@ class OBJECT_OT_medial_axis_others(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _sentence(name, found):
+def _sentence(mean, largest, volume):
     return (
-        f"'{name}' is {100 * found.mean:.3f} % of the diagonal away (mean), at most "
-        f"{100 * found.largest:.2f} %, and has {100 * found.volume:.1f} % of the volume"
+        f"{100 * mean:.3f} % of the diagonal away (mean), at most {100 * largest:.2f} %, and has "
+        f"{100 * volume:.1f} % of the volume"
     )
 
 
@@ -87,32 +84,11 @@ class VIEW3D_PT_medial_axis_rebuild(Closed, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         made = rebuilt_of(_axis(context))
-        label = "Rebuild Solid" if made is None else "Measure Again"
         row = layout.row(align=True)
-        row.operator("object.medial_axis_rebuild", text=label, icon="MESH_ICOSPHERE")
+        row.operator("object.medial_axis_rebuild", icon="MESH_ICOSPHERE")
         if made is not None:
             icon = "HIDE_ON" if are_back(made) else "HIDE_OFF"
             row.operator("object.medial_axis_others", text="", icon=icon).name = made.name
-            _draw_inputs(layout, made)
-            _draw_difference(layout, made)
-
-
-def _draw_inputs(layout, made):
-    modifier = modifier_of(made)
-    if modifier is None:
-        return
-    column = settings_column(layout)
-    for name in _INPUTS:
-        owner, path = row_of(modifier, name)
-        column.prop(owner, path, text=name)
-
-
-def _draw_difference(layout, made):
-    if stored.REBUILT_MEAN not in made:
-        return
-    figures = {
-        "Mean Distance": f"{100 * made[stored.REBUILT_MEAN]:.3f} %",
-        "Max Distance": f"{100 * made[stored.REBUILT_LARGEST]:.2f} %",
-        "Volume": f"{100 * made[stored.REBUILT_VOLUME]:.1f} %",
-    }
-    draw_figures(layout, figures, 0.6)
+            if stored.REBUILT_MEAN in made:
+                names = (stored.REBUILT_MEAN, stored.REBUILT_LARGEST, stored.REBUILT_VOLUME)
+                draw_wrapped(context, layout, _sentence(*(made[name] for name in names)), "INFO")

@@ -3,7 +3,7 @@
 
     python3 lab/benchmarks/all_meshes.py [--output table.md] [--meshes spot_low.obj ...] [--sampling NAME] [--worst]
 
-With the add-on's defaults and the form As Published. Outside: vertices of the axis outside the mesh by crossings of a
+With the add-on's defaults and the form Raw. Outside: vertices of the axis outside the mesh by crossings of a
 ray, for meshes that are closed. Spike: the longest distance of a vertex whose ball the surface does not hold firmly
 (both sides of the surface are seen at less than 45 degrees) from the nearest one where it does, relative to the
 radius there. Seconds of processor time, both cores together. What was said: the add-on's warnings, or its refusal.

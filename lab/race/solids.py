@@ -80,7 +80,9 @@ def _of_ellipsoid(shape: shapes.Ellipsoid) -> Solid:
 
 
 def _of_lathe(shape: shapes.Lathe) -> Solid:
-    length = shape.axis_length
+    segments = shape.axis_segments
+    curves = segments[segments[:, :, 0].sum(axis=1) < 1e-12]  # those on the z axis stay curves
+    length = float(np.linalg.norm(curves[:, 1] - curves[:, 0], axis=1).sum())
     return Solid(shape, "sheets and a curve" if length else "sheets", shape.axis_area, length)
 
 

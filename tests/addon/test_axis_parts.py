@@ -7,6 +7,7 @@ import pytest
 from installed import addon
 from measure import attribute, positions
 from scene import added, box, compute, export, press
+from test_rows import drawn
 
 EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
 
@@ -114,12 +115,12 @@ def test_a_table_is_exported_unless_the_axis_was_changed(result, tmp_path):
     assert addon("bridge.axis.read_axis").read_axis(result).structure is None
 
 
-def test_the_panel_of_parts_stays_in_its_place(result):
-    """If it went where the result grows by as much, the panels below would lie over what has grown."""
-    panel = bpy.types.VIEW3D_PT_medial_axis_parts
-    assert panel.poll(bpy.context)
+def test_details_say_how_many_parts_there_are(result):
+    details = bpy.types.VIEW3D_PT_medial_axis_details
+    text = ["13 sheets, 12 seams, 12 creases, 4 junctions, 8 corners"]
+    assert details.poll(bpy.context) and text in drawn(details)
     compute(bpy.data.objects["Cube"], **EVEN | {"form": "PUBLISHED"})
-    assert panel.poll(bpy.context)
+    assert details.poll(bpy.context) and text not in drawn(details)
     assert not bpy.ops.object.medial_axis_select_part.poll()
     bpy.data.objects.remove(result)
-    assert not panel.poll(bpy.context)
+    assert not details.poll(bpy.context)

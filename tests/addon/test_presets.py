@@ -11,7 +11,7 @@ from installed import addon
 FOLDER = Path(addon().__file__).parent / "presets" / "medial_axis"
 # The settings in which each preset differs from the defaults.
 SHIPPED = {
-    "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
+    "As_in_the_Paper": {"form": "PUBLISHED", "sampling": "VERTICES"},
     "Curve": {"form": "CURVE"},
     "Defaults": {},
     "Low_Poly": {"sharp_angle": math.pi / 3},

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rows that the tab has before the first click and after it."""
 
+import re
 from types import SimpleNamespace
 
 import bpy
@@ -36,12 +37,26 @@ class Layout:
         return SimpleNamespace()
 
     label = prop = operator = menu = _item
-
-    def operator_menu_enum(self, name, _property, **words):
-        return self._item(name, **words)
+    operator_menu_enum = lambda self, name, _property, **words: self._item(name, **words)
 
     def separator(self):
         """It is no row."""
+
+
+class Names(Layout):
+    """Keeps the names that are drawn, each with what it stands for: a property, an operator, or itself."""
+
+    def _item(self, *words, text=None, translate=True, **_):
+        *owners, thing = words or [text]
+        if text is None:
+            group, _, word = thing.partition(".")
+            known = getattr(getattr(bpy.ops, group), word).get_rna_type() if word else None
+            text = (known or owners[0].bl_rna.properties[thing]).name
+        if text and translate:  # neither figures, nor names of objects, nor sentences
+            self.rows.append((text, thing))
+        return SimpleNamespace()
+
+    label = prop = operator = menu = _item
 
 
 def seen(is_colour=False, width=400):
@@ -61,20 +76,21 @@ def seen(is_colour=False, width=400):
     )
 
 
+def panels(context):
+    """The panels of the tab that are there, without those of an add-on that was disabled."""
+    ours = (c for c in bpy.types.Panel.__subclasses__() if c.__module__.startswith(MODULE))
+    ours = [c for c in ours if c.is_registered and getattr(c, "bl_category", "") == "Medial Axis"]
+    return [cls for cls in ours if not hasattr(cls, "poll") or cls.poll(context)]
+
+
 def rows(context):
     """The rows of the tab as it is at first: headers of panels, and what is in those that are open."""
-    ours = (c for c in bpy.types.Panel.__subclasses__() if c.__module__.startswith(MODULE))
-    panels = [cls for cls in ours if cls.is_registered]  # not those of an add-on that was disabled
     found = Layout()
-    for cls in panels:
-        is_main = getattr(cls, "bl_idname", "") == MAIN
-        if not is_main and getattr(cls, "bl_parent_id", "") != MAIN:
-            continue
-        if hasattr(cls, "poll") and not cls.poll(context):
-            continue
-        if not is_main:
+    for cls in panels(context):
+        if is_inside := getattr(cls, "bl_parent_id", "") == MAIN:
             found.label(text=cls.bl_label)
-        if "DEFAULT_CLOSED" not in getattr(cls, "bl_options", ()):
+        is_open = "DEFAULT_CLOSED" not in getattr(cls, "bl_options", ())
+        if is_open and (is_inside or cls.__name__ == MAIN):
             cls.draw(SimpleNamespace(layout=found), context)
     return found.rows
 
@@ -87,13 +103,19 @@ def newcomer():
     preferences.property_unset("guided")
 
 
-def test_few_rows_before_the_first_click_and_after_it(newcomer):
+def test_few_rows_and_names_of_one_thing_each_before_the_first_click_and_after_it(newcomer):
     suzanne(levels=0)
     assert len(rows(seen())) <= 9, rows(seen())
     press("medial_axis", select_result=False)
     assert newcomer.guided, "who has computed an axis is no longer new"
     assert len(rows(seen())) <= 18, rows(seen())
     assert len(rows(seen(is_colour=True))) <= 18
+    found = Names()
+    for cls in panels(seen()):
+        found.label(text=cls.bl_label)
+        cls.draw(SimpleNamespace(layout=found), seen())
+    names = sorted(text for text, _ in set(filter(None, found.rows)))
+    assert len(set(names)) == len(names) <= 66 and max(map(len, names)) <= 25, names
 
 
 def drawn(panel):
@@ -112,7 +134,7 @@ def test_rig_tells_of_the_skeleton_that_was_made():
     suzanne(levels=0)
     skeleton = press("medial_axis_skeleton")
     found = drawn(bpy.types.VIEW3D_PT_medial_axis_skeleton)
-    assert any(row[0] == "Ends" and int(row[1]) > 1 for row in found)
+    assert any(re.fullmatch(r"\d+ ends, \d+ branches", row[0]) for row in found)
     skeleton["ma_frame"] = 1  # as one of a sequence
     assert rows(seen())
     assert press("medial_axis_armature").type == "ARMATURE" and rows(seen())

@@ -192,7 +192,7 @@ def test_other_sides_are_as_published_and_said(side, form):
     published = computed(shape, side=side, form=Form.PUBLISHED)
     assert same_axis(found.axis, published.axis) and found.settings.form is Form.PUBLISHED
     name = OPTIONS["form"].items[form][0]
-    assert found.topology == f"Form As Published: {name} is for the inner axis only"
+    assert found.topology == f"Form Raw: {name} is for the inner axis only"
     assert found.warnings == published.warnings
 
 

@@ -310,10 +310,7 @@ def _mesh(loops: Sequence[tuple[Curve, ...]], half: float) -> Mesh:
     flat = [_points(loop) for loop in loops]
     faces = _cut(flat)
     corners = np.concatenate(flat)
-    pieces = [
-        _soup(corners[faces[:, ::-1]], -half),
-        _soup(corners[faces], half),
-    ]
+    pieces = [_soup(corners[faces[:, ::-1]], -half), _soup(corners[faces], half)]
     for loop, points in zip(loops, flat):
         rings = int(np.ceil(2 * half / RING)) if any(isinstance(c, Arc) for c in loop) else 1
         pieces += [_strip(points, a, b) for a, b in pairwise(np.linspace(-half, half, rings + 1))]

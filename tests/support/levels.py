@@ -36,11 +36,7 @@ class Levels:
             name: tuple(getattr(h, f"{kind}_{name}") for kind in ("facet", "edge", "vertex"))
             for name in ("sheet", "spacings", "erosion", "spike")
         }
-        self.values["limb"] = (
-            np.zeros(len(h.generators), np.float32),
-            h.edge_limb,
-            h.vertex_limb,
-        )
+        self.values["limb"] = (np.zeros(len(h.generators), np.float32), h.edge_limb, h.vertex_limb)
 
     def alive(self, sheet=0.0, spacings=0.0, erosion=0.0, spike=0.0, limb=0.04):
         """(facets, edges, vertices) bool: what a level consists of."""

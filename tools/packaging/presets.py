@@ -16,7 +16,7 @@ from pathlib import Path
 
 # Each preset lists the settings that differ from the defaults.
 PRESETS: dict[str, dict[str, object]] = {
-    "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
+    "As_in_the_Paper": {"form": "PUBLISHED", "sampling": "VERTICES"},
     "Curve": {"form": "CURVE"},
     "Defaults": {},
     "Low_Poly": {"sharp_angle": math.pi / 3},

@@ -23,7 +23,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
         if wanted is Form.PUBLISHED:
             return ""
         name = OPTIONS["form"].items[wanted][0]
-        return f"Form As Published: {name} is for the inner axis only"
+        return f"Form Raw: {name} is for the inner axis only"
     betti, by_faces = axis.level.betti, samples.by_faces
     if by_faces == betti:
         return f"{betti_words(betti)}, as the solid"

@@ -258,17 +258,15 @@ class SampledOperator(ComputeOperator, SamplingProperties):
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in self.shown:
-            row = self.layout.row()
-            row.active = self.acts(name)
-            row.prop(self, name)
+        for name in filter(self.acts, self.shown):
+            self.layout.prop(self, name)
         box = self.layout.box().column()
         for name in ("sides", "sampling"):
             box.prop(self, name)
         draw_sampling(box, self, self.of_faces())
 
     def acts(self, _name):
-        """Whether an option matters with the others as they are; else it is grey."""
+        """Whether an option matters with the others as they are; else it is not drawn."""
         return True
 
     def of_faces(self):

@@ -289,15 +289,10 @@ class VIEW3D_PT_medial_axis_sequence(InSettings, bpy.types.Panel):
         column = self.layout.column()
         column.prop(scene, "medial_axis_sequence_of", text="")
         column.prop(scene, "medial_axis_folder")
-        row = column.row(align=True)
-        row.label(text="Frames")
-        for name in ("frame_start", "frame_end", "frame_step"):
-            row.prop(scene, name, text="")
         column.prop(scene, "medial_axis_fast")
         copy_sequence(
             scene, column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
         )
-        column.operator("import_scene.medial_axis_sequence", text="Load Files", icon="IMPORT")
 
 
 def menu_func_import(self, _context):

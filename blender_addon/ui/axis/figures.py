@@ -11,15 +11,15 @@ from ...bridge.thickness.heat_map import shown_heat
 from ...bridge.thickness.thickness_object import scale_on
 from ...core.axis.topology import betti_in_short
 from ...core.axis.verdict import Light, in_short
+from ...core.samples.density import share_text
 from ..base import manual
 from ..base.legend import draw_legend, draw_thickness_legend, light
 from ..base.plain_words import draw_told, warned
 from ..base.show import shows_colours
-from ..base.tab import draws_buttons
 from ..base.translation import say
-from ..base.wrapped_text import draw_figures, draw_wrapped
+from ..base.wrapped_text import counted, draw_wrapped
 from ..settings.guide import WHY
-from ..settings.properties import copy_settings, needs_analysis
+from ..settings.properties import needs_analysis
 from .inward_faces import draw_inward_faces
 
 
@@ -27,12 +27,9 @@ def draw_result(context, layout, result):
     """Its verdict, its pieces and its radii, a row each; where its colours are shown, their legend has the radii."""
     if reason := why_outdated(context, result):
         layout.label(text=reason, icon_value=light(Light.LOOK.name))
-        if draws_buttons(layout):
-            again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
-            copy_settings(context.scene.medial_axis, again)
     else:
         _draw_verdict(context, layout, result)
-        _draw_pieces(context, layout, result)
+    _draw_pieces(context, layout, result)
     if hidden := result.get(stored.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
     if crumbs := result.get(stored.CRUMBS, 0):
@@ -42,16 +39,13 @@ def draw_result(context, layout, result):
         text = "1 lone point hidden" if lone == 1 else f"{lone:,} lone points hidden"
         draw_wrapped(context, layout, text, "INFO")
     if not _draw_legend(context, layout, result):
-        radii = _range_text(context, *axis_object.radius_range(result))
-        draw_figures(layout, {"Radius": radii}, 0.25)
+        _draw_radii(context, layout, axis_object.radius_range(result))
 
 
 def draw_sequence(context, layout, frame):
     """The radii of a frame of a sequence, whose colours are those of all its frames."""
     _draw_name(layout, frame)
-    draw_figures(
-        layout, {"Radius": _range_text(context, frame[stored.RADIUS_MIN], frame[stored.RADIUS_MAX])}
-    )
+    _draw_radii(context, layout, (frame[stored.RADIUS_MIN], frame[stored.RADIUS_MAX]))
     _draw_legend(context, layout, frame)
 
 
@@ -59,14 +53,8 @@ def draw_report(context, layout, report):
     """Draws how dense the samples are."""
     _draw_name(layout, report)
     limit = report.get(stored.EPSILON_LIMIT, 0.0)
-    share = 100 * report.get(stored.EPSILON_SHARE, 0.0)
-    draw_figures(
-        layout,
-        {
-            "Epsilon": f"{report.get(stored.EPSILON_MEDIAN, 0.0):.2f} (median)",
-            f"Above {limit:g}": f"{share:.1f} %",
-        },
-    )
+    share = share_text(report.get(stored.EPSILON_SHARE, 0.0))
+    draw_wrapped(context, layout, f"{share} is sparse: epsilon above {limit:g}", "INFO")
     for warning in report.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
     _draw_legend(context, layout, report)
@@ -74,20 +62,17 @@ def draw_report(context, layout, report):
 
 def draw_details(context, layout, result):
     """All other figures of a result, and every sentence."""
-    _draw_table(
-        layout,
-        result,
-        {
-            "Points": f"{result.get(stored.POINTS, 0):,}",
-            "Duplicates": f"{result.get(stored.DUPLICATES, 0):,}",
-            "Facets": f"{len(result.data.polygons):,}",
-            "Vertices": f"{len(result.data.vertices):,}",
-            "Unbounded": f"{result.get(stored.UNBOUNDED, 0):,}",
-            "Without Area": f"{result.get(stored.ZERO_AREA, 0):,}",
-            "Not on Edges": f"{result.get(stored.REFUSED, 0):,}",
-            "Time": f"{result.get(stored.SECONDS, 0.0):.2f} s",
-        },
-    )
+    numbers = {
+        "points": result.get(stored.POINTS, 0),
+        "duplicates": result.get(stored.DUPLICATES, 0),
+        "facets": len(result.data.polygons),
+        "unbounded": result.get(stored.UNBOUNDED, 0),
+        "without area": result.get(stored.ZERO_AREA, 0),
+        "vertices": len(result.data.vertices),
+        "without an exact place": result.get(stored.REFUSED, 0),
+    }
+    seconds = f"{result.get(stored.SECONDS, 0.0):.2f} s"
+    draw_wrapped(context, layout, f"{counted(numbers)}, {seconds}", "MESH_DATA")
     sentences = (stored.TOPOLOGY, stored.SAMPLED, stored.DENSITY, stored.INSIDE)
     for name in (*sentences, stored.SOURCE_MESH, stored.PLACES):
         if sentence := result.get(name):
@@ -99,35 +84,28 @@ def draw_details(context, layout, result):
 
 def draw_report_details(context, layout, report):
     """All other figures of a report."""
-    worst = report.get(stored.EPSILON_WORST) or [0.0]
-    _draw_table(
-        layout,
-        report,
-        {
-            "Samples": f"{report.get(stored.POINTS, 0):,}",
-            "95 % Below": f"{report.get(stored.EPSILON_P95, 0.0):.2f}",
-            "And at Edges": f"{100 * report.get(stored.EPSILON_SHARE_OF_ALL, 0.0):.1f} %",
-            "Worst": f"{worst[0]:.2g}",
-        },
-    )
+    _draw_name(layout, report)
+    median, most = (report.get(name, 0.0) for name in (stored.EPSILON_MEDIAN, stored.EPSILON_P95))
+    worst = (report.get(stored.EPSILON_WORST) or [0.0])[0]
+    at_edges = share_text(report.get(stored.EPSILON_SHARE_OF_ALL, 0.0))
+    text = f"Epsilon: median {median:.2f}, 95 % below {most:.2f}, at most {worst:.2g}"
+    draw_wrapped(context, layout, f"{text}; with sharp edges {at_edges} is sparse", "INFO")
     draw_wrapped(context, layout, report.get(stored.SAMPLED, ""), "INFO")
 
 
 def draw_surface(context, layout, surface):
     """The figures of a reconstructed surface, and what looks wrong with it."""
-    _draw_table(
-        layout,
-        surface,
-        {
-            "Points": f"{surface.get(stored.POINTS, 0):,}",
-            "Duplicates": f"{surface.get(stored.DUPLICATES, 0):,}",
-            "Off Surface": f"{surface.get(stored.OFF_SURFACE, 0):,}",
-            "Triangles": f"{len(surface.data.polygons):,}",
-            "Non-Manifold": f"{surface.get(stored.NONMANIFOLD_EDGES, 0):,} edges",
-            "": f"{surface.get(stored.NONMANIFOLD_VERTICES, 0):,} points",
-            "Cavities": f"{surface.get(stored.CAVITIES, 0):,}",
-        },
-    )
+    _draw_name(layout, surface)
+    numbers = {
+        "points": surface.get(stored.POINTS, 0),
+        "duplicates": surface.get(stored.DUPLICATES, 0),
+        "off the surface": surface.get(stored.OFF_SURFACE, 0),
+        "triangles": len(surface.data.polygons),
+        "non-manifold edges": surface.get(stored.NONMANIFOLD_EDGES, 0),
+        "non-manifold points": surface.get(stored.NONMANIFOLD_VERTICES, 0),
+        "cavities": surface.get(stored.CAVITIES, 0),
+    }
+    draw_wrapped(context, layout, counted(numbers), "MESH_DATA")
     for warning in surface.get(stored.WARNINGS, "").splitlines():
         draw_told(context, layout, warning, "ERROR", warned)
 
@@ -195,6 +173,12 @@ def draw_thickness(context, layout, carrier):
     )
 
 
+def _draw_radii(context, layout, radii):
+    row = layout.split(factor=0.25)
+    row.label(text="Radius")
+    row.label(text=say(_range_text(context, *radii)), translate=False)
+
+
 def _range_text(context, smallest, largest):
     """Two lengths, or one where they read the same."""
     start, end = (length_text(context, value) for value in (smallest, largest))
@@ -213,8 +197,3 @@ def length_text(context, value):
 
 def _draw_name(layout, thing):
     layout.label(text=thing.name, icon="OUTLINER_OB_MESH", translate=False)
-
-
-def _draw_table(layout, thing, figures):
-    _draw_name(layout, thing)
-    draw_figures(layout, figures)

@@ -62,15 +62,13 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        form, settings = Form[self.form], settings_from(self)
-        for name in OPTIONS:
-            if name not in SAMPLING_OPTIONS:
-                row = self.layout.row()
-                row.active = applies_to_form(name, form)
-                if name == "crisp":
-                    row.active = settings.crisp_is_possible
-                row.prop(self, name)
-        self.layout.prop(self, "each_part")
+        settings = settings_from(self)
+        for name in (*OPTIONS, "each_part", "parent"):
+            acts = applies_to_form(name, Form[self.form])
+            if name == "crisp":
+                acts = settings.crisp_is_possible
+            if acts and name not in SAMPLING_OPTIONS:
+                self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self, settings.options_of_faces)
 
     def divided(self, shape):
@@ -180,7 +178,7 @@ class OBJECT_OT_medial_axis_sampling_report(SampledOperator, bpy.types.Operator)
 
 class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
     bl_idname = "object.tight_cocone_surface"
-    bl_label = "Reconstruct Surface (Tight Cocone)"
+    bl_label = "Reconstruct Surface"
     bl_description = (
         "Make a watertight surface through the points of the selected objects; "
         "faces and normals are not used"

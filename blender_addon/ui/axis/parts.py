@@ -1,31 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sheets of a medial axis: their panel, and operators that select and separate them."""
+"""The sheets of a medial axis: how many there are, and operators that select and separate them."""
 
 import bpy
 
 from ...bridge.axis.axis_object import is_result, result_of
 from ...bridge.axis.parts_objects import part_of_active_face, select_part, separate_parts
 from ...bridge.axis.structure_object import counts_on
-from ...bridge.mesh import stored
 from ...bridge.mesh.attributes import PART
 from ...bridge.objects.output_object import is_gone
-from ...core.settings import Form
 from ..base.plain_words import Needing, Telling
-from ..base.tab import InDetails, draw_setting, settings_column
 from ..base.translation import say
 from ..base.view_place import edit_faces
-from ..base.wrapped_text import draw_figures, draw_wrapped
-from ..settings.properties import shown_result
+from ..base.wrapped_text import counted, draw_wrapped
 
 _NONE = "Select a medial axis of the form Clean, or an object whose medial axis was computed before"
-_LABELS = {
-    "sheets": "Sheets",
-    "seams": "Seams",
-    "rims": "Rims",
-    "creases": "Creases",
-    "junctions": "Junctions",
-    "corners": "Corners",
-}
 
 
 def _axis(context):
@@ -86,26 +74,9 @@ class OBJECT_OT_medial_axis_separate_parts(_OfParts, Telling, bpy.types.Operator
         return f"{len(collection.objects):,} parts in '{collection.name}'"
 
 
-class VIEW3D_PT_medial_axis_parts(InDetails, bpy.types.Panel):
-    """Sheets and seams: how many there are, their colours, and what can be done with them"""
-
-    bl_label = "Parts"
-    bl_idname = "VIEW3D_PT_medial_axis_parts"
-
-    @classmethod
-    def poll(cls, context):
-        # It is there for every form: where a panel goes and the rest grows by as much, Blender moves no panel.
-        return shown_result(context) is not None
-
-    def draw(self, context):
-        layout = self.layout
-        if _axis(context) is None:
-            is_clean = shown_result(context)[stored.of_option("form")] == Form.CLEAN.name
-            text = "The axis has no sheets" if is_clean else "Only clean forms have parts"
-            draw_wrapped(context, layout, text, "INFO")
-            return
-        draw_setting(settings_column(layout), context.scene.medial_axis, "by_part")
+def draw_parts(context, layout):
+    """How many sheets, seams and rims there are, and what can be done with them."""
+    if axis := _axis(context):
+        draw_wrapped(context, layout, counted(counts_on(axis)), "OUTLINER_COLLECTION")
         layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
         layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
-        counts = counts_on(_axis(context)).items()
-        draw_figures(layout, {_LABELS[name]: f"{count:,}" for name, count in counts}, 0.6)

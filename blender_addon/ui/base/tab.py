@@ -5,7 +5,6 @@ from . import current_job
 
 MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
 RESULT = "VIEW3D_PT_medial_axis_result"
-DETAILS = "VIEW3D_PT_medial_axis_details"
 SETTINGS = "VIEW3D_PT_medial_axis_settings"
 # Letters of a label beside its value or its box, in a sidebar as wide as it is at first.
 _FITS, _FITS_A_SWITCH = 10, 14
@@ -35,12 +34,6 @@ class InResult(Closed):
     """A panel inside that of the result."""
 
     bl_parent_id = RESULT
-
-
-class InDetails(Closed):
-    """A panel inside that of the details."""
-
-    bl_parent_id = DETAILS
 
 
 class InSettings(Closed):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texts in panels: sentences, which Blender's labels do not wrap, and rows of figures."""
+"""Texts in panels: sentences, which Blender's labels do not wrap, and figures."""
 
 import blf
 
 from .translation import say
 
+_ONE = {"branches": "branch", "cavities": "cavity", "vertices": "vertex"}
 _MARGINS = 82  # pixels of the sidebar beside a text: its tabs, the borders of a panel, and an icon
 
 
@@ -36,10 +37,8 @@ def _lines(text, room):
     return lines
 
 
-def draw_figures(layout, figures, share=0.45):
-    """Rows of a label, which has a share of the width, and a text."""
-    column = layout.column(align=True)
-    for label, text in figures.items():
-        row = column.split(factor=share)
-        row.label(text=say(label), translate=False)
-        row.label(text=say(text), translate=False)
+def counted(numbers):
+    """The numbers of things, of which there are any, in a sentence, as "1 loop, 20 branches"."""
+    there = {name: number for name, number in numbers.items() if number}
+    one = {name: _ONE.get(name, name.removesuffix("s")) for name in there}
+    return ", ".join(f"{n:,} {say(one[name] if n == 1 else name)}" for name, n in there.items())

@@ -22,9 +22,8 @@ def draw_form(context, layout, panel):
 def draw_more_of_form(context, layout, panel):
     """The other sliders of the form, and whether its places are crisp."""
     _draw_sliders(context, layout, _that_apply(panel)[1:])
-    row = layout.row()
-    row.active = settings_from(panel).crisp_is_possible
-    row.prop(panel, "crisp")
+    if settings_from(panel).crisp_is_possible:
+        layout.prop(panel, "crisp")
 
 
 def _draw_sliders(context, layout, names):

@@ -15,11 +15,12 @@ from ..axis.figures import (
     draw_sequence,
     draw_surface,
 )
+from ..axis.parts import draw_parts
 from ..axis.selected_sources import has_faces, obstacle, sources
 from ..base import current_job
 from ..base.plain_words import doing, draw_told
 from ..base.show import draw_colours, shows_colours
-from ..base.tab import DETAILS, MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
+from ..base.tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 from ..settings.guide import draw_guide
 from ..settings.presets import VIEW3D_PT_medial_axis_presets
 from ..settings.properties import (
@@ -91,7 +92,7 @@ class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
     """All other figures, and every sentence"""
 
     bl_label = "Details"
-    bl_idname = DETAILS
+    bl_idname = "VIEW3D_PT_medial_axis_details"
 
     @classmethod
     def poll(cls, context):
@@ -100,6 +101,7 @@ class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
     def draw(self, context):
         if result := shown_result(context):
             draw_details(context, self.layout, result)
+            draw_parts(context, self.layout)
         if report := shown_report(context):
             draw_report_details(context, self.layout, report)
 
@@ -165,9 +167,7 @@ def _draw_status(context, layout):
     """A row that is always there, so that nothing below it moves: an obstacle, a note, or whose axis is computed."""
     job = current_job.job()
     if not all(map(has_faces, sources(context))) and draws_buttons(layout):
-        button = layout.operator(
-            "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
-        )
+        button = layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
         copy_settings(context.scene.medial_axis, button)
     reason = "" if job is not None else obstacle(context)
     told = [reason] if reason and reason != native.problem() else []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings that an artist seldom needs, in panels inside a closed one: form, sampling, method, and the look."""
+"""The settings that an artist seldom needs, in panels inside a closed one: the look, sampling, and the method."""
 
 import bpy
 
@@ -20,14 +20,24 @@ class VIEW3D_PT_medial_axis_settings(Closed, bpy.types.Panel):
         pass  # it holds the others
 
 
-class VIEW3D_PT_medial_axis_form(InSettings, bpy.types.Panel):
-    """The other sliders of the form"""
+class VIEW3D_PT_medial_axis_look(InSettings, bpy.types.Panel):
+    """The other sliders of the form, and how the result is seen; they act at once"""
 
-    bl_label = "Clean Up"
-    bl_idname = "VIEW3D_PT_medial_axis_form"
+    bl_label = "Look"
+    bl_idname = "VIEW3D_PT_medial_axis_look"
 
     def draw(self, context):
-        draw_more_of_form(context, settings_column(self.layout), context.scene.medial_axis)
+        settings, column = context.scene.medial_axis, settings_column(self.layout)
+        draw_more_of_form(context, column, settings)
+        is_published = Form[settings.form] is Form.PUBLISHED
+        name = "smallest_island" if is_published else "crumbs"
+        draw_setting(column, settings, name, slider=True)
+        column.prop(settings, "lone_points")
+        draw_setting(column, settings, "by_part")
+        thing = shown_thing(context)
+        modifier = thing and wires_of(thing)
+        if modifier and (width := width_of(modifier)):
+            column.prop(*width, text="Wire Width")
 
 
 class VIEW3D_PT_medial_axis_sampling(InSettings, bpy.types.Panel):
@@ -38,9 +48,11 @@ class VIEW3D_PT_medial_axis_sampling(InSettings, bpy.types.Panel):
 
     def draw(self, context):
         settings, column = context.scene.medial_axis, settings_column(self.layout)
-        column.prop(settings, "sampling")
-        names = [name for name in SAMPLING_OPTIONS if name not in AS_IN_PAPER]
+        column.prop(settings, "sampling", text="")
+        # The seed is in the panel of the operator.
+        names = [name for name in SAMPLING_OPTIONS if name not in (*AS_IN_PAPER, "seed")]
         draw_sampling(column, settings, settings_from(settings).options_of_faces, names)
+        draw_setting(column, settings, "each_part")
         if draws_buttons(self.layout):
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)
@@ -56,33 +68,6 @@ class VIEW3D_PT_medial_axis_method(InSettings, bpy.types.Panel):
         self.layout.label(text="As in the paper")
         settings, column = context.scene.medial_axis, settings_column(self.layout)
         for name in ("rule", "criteria", "limit_set", "mesh", "sides"):
-            row = column.row()
-            row.active = name != "mesh" or applies_to_form(name, Form[settings.form])
-            draw_setting(row.column(), settings, name)
+            if applies_to_form(name, Form[settings.form]):
+                draw_setting(column, settings, name)
         draw_sampling(column, settings, settings_from(settings).options_of_faces, AS_IN_PAPER)
-        draw_setting(column, settings, "each_part")
-
-
-class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
-    """How the result is seen"""
-
-    bl_label = "Show"
-    bl_idname = "VIEW3D_PT_medial_axis_show"
-
-    @classmethod
-    def poll(cls, context):
-        return shown_thing(context) is not None
-
-    def draw(self, context):
-        thing, settings = shown_thing(context), context.scene.medial_axis
-        column = settings_column(self.layout)
-        column.prop(thing, "show_in_front", text="In Front")
-        column.prop(settings, "parent")
-        if Form[settings.form] is Form.PUBLISHED:
-            draw_setting(column, settings, "smallest_island", slider=True)
-        else:
-            draw_setting(column, settings, "crumbs", slider=True)
-        column.prop(settings, "lone_points")
-        modifier = wires_of(thing)
-        if modifier is not None and (width := width_of(modifier)):
-            column.prop(*width, text="Wire Width")

@@ -95,7 +95,7 @@ class SamplingProperties:
 
 
 def draw_sampling(layout, properties, of_faces=(), names=SAMPLING_OPTIONS):
-    """Draw options of the sampling; those that do not matter for the chosen Sampling are grey.
+    """Draw the options of the sampling that matter for the chosen Sampling.
 
     `of_faces` are the options that matter for Vertices, too.
     """
@@ -105,9 +105,8 @@ def draw_sampling(layout, properties, of_faces=(), names=SAMPLING_OPTIONS):
             continue
         if name == "prepare" and not (_is_of_points() or _is_of_noisy_faces(properties)):
             continue
-        row = layout.row()
-        row.active = applies(name, chosen, properties.spacing, of_faces)
-        draw_setting(row.column(), properties, name)
+        if applies(name, chosen, properties.spacing, of_faces):
+            draw_setting(layout, properties, name)
 
 
 def _is_of_points():

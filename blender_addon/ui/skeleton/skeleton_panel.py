@@ -8,7 +8,7 @@ from ...bridge.skeleton.armature_object import armature_of, is_armature
 from ...bridge.skeleton.skeleton_object import is_skeleton, skeleton_of
 from ..base.plain_words import draw_told, warned
 from ..base.tab import Closed, draw_setting, draws_buttons, settings_column
-from ..base.wrapped_text import draw_figures
+from ..base.wrapped_text import counted, draw_wrapped
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
 
 
@@ -18,16 +18,23 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
     def draw(self, context):
         column = settings_column(self.layout)
         # The others are in the panels of the operators.
-        for name in ("detail", "per_limb", "mirror", "fill", "bind"):
+        for name in ("detail", "per_limb", "fill", "bind"):
             draw_setting(column, context.scene.medial_axis_skeleton, name)
-        converts = bpy.ops.object.medial_axis_to_curve.poll()
-        if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
+        if draws_buttons(self.layout, len(SKELETON_OPERATORS)):
             for operator, icon in SKELETON_OPERATORS.items():
                 copy_all(context, self.layout.operator(operator, icon=icon))
-            if converts:
-                self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
-        for thing in _shown(context):
-            _draw_figures(context, self.layout.column(), thing)
+        things = _shown(context)
+        for thing in things:
+            names = {"bones": stored.BONES}
+            if is_skeleton(thing):
+                names = {"ends": stored.ENDS, "branches": stored.BRANCHES, "loops": stored.LOOPS}
+            text = counted({word: thing.get(name, 0) for word, name in names.items()})
+            draw_wrapped(context, self.layout, text, f"OUTLINER_OB_{thing.type}")
+        warnings = (
+            line for thing in things for line in thing.get(stored.WARNINGS, "").splitlines()
+        )
+        for warning in dict.fromkeys(warnings):
+            draw_told(context, self.layout, warning, "ERROR", warned)
 
 
 def _shown(context):
@@ -38,14 +45,3 @@ def _shown(context):
     if is_skeleton(active) or is_armature(active):
         return [active]
     return [found for found in (skeleton_of(active), armature_of(active)) if found is not None]
-
-
-def _draw_figures(context, layout, thing):
-    figures = {"Bones": thing.get(stored.BONES, 0)}
-    if is_skeleton(thing):
-        names = {"Ends": stored.ENDS, "Branches": stored.BRANCHES, "Loops": stored.LOOPS}
-        figures = {label: thing.get(name, 0) for label, name in names.items()}
-    layout.label(text=thing.name, icon="DOT", translate=False)
-    draw_figures(layout, {label: f"{number:,}" for label, number in figures.items()})
-    for warning in thing.get(stored.WARNINGS, "").splitlines():
-        draw_told(context, layout, warning, "ERROR", warned)

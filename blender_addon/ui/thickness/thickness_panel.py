@@ -8,7 +8,7 @@ from ...bridge.objects.source_state import has_changed
 from ...bridge.thickness.thin_selection import patch_at, patches_of
 from ...core.axis.verdict import Light
 from ...core.samples.density import share_text
-from ...core.settings import THICKNESS_OPTIONS, Noise
+from ...core.settings import THICKNESS_OPTIONS
 from ..axis.figures import draw_thickness, length_text
 from ..base.legend import light
 from ..base.plain_words import draw_told, warned
@@ -46,9 +46,12 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
 
 def _draw_options(layout, settings):
     column = settings_column(layout)
-    for name in THICKNESS_OPTIONS:
+    for name in (
+        "limit",
+        "between",
+        "minimum_patch",
+    ):  # the others are in the panel of the operator
         row = column.row()
-        row.active = name != "edges" or settings.noise == Noise.CLEAN.name
         row.prop(settings, name)
         if name == "limit":
             row.menu("VIEW3D_MT_medial_axis_thickness_limits", text="", icon="DOWNARROW_HLT")
@@ -74,11 +77,12 @@ def _draw_found(context, layout, carrier):
     if stored.THICKNESS_PLACE in carrier and least < float("inf"):
         _draw_place(column, f"Minimum: {length_text(context, least)}", "MINIMUM", "ZOOM_SELECTED")
     if carrier[stored.THICKNESS_LIMIT] > 0.0:
-        share = share_text(carrier[stored.THICKNESS_SHARE])
-        area = _area(context, carrier[stored.THICKNESS_AREA])
-        column.label(text=say(f"Thin: {area} ({share})"), icon="MESH_PLANE", translate=False)
+        if thin := carrier[stored.THICKNESS_AREA]:
+            share = share_text(carrier[stored.THICKNESS_SHARE])
+            text = say(f"Thin: {_area(context, thin)} ({share})")
+            column.label(text=text, icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
-        if carrier[stored.THICKNESS_AREA] > 0.0 and not carrier[stored.THICKNESS_GAP]:
+        if thin and not carrier[stored.THICKNESS_GAP]:
             _draw_thicken(context, layout)
     if shown_result(context) is None:  # else the panel of the result has both
         draw_colours(context, layout)

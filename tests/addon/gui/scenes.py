@@ -34,13 +34,10 @@ THETA_LEFT, THETA_RIGHT = (112, 153), (78, 153)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
 SKELETON, THICKNESS = (150, 208), (150, 234)
-RESULT, REBUILD = (
-    (150, 208),
-    (150, 286),
-)  # where there is a result; the other below the closed first
+RESULT, REBUILD = (150, 208), (150, 286)  # where there is a result
 AUTO_UPDATE = (62, 208)  # in the header of the panel Result
-EXTRACT_SKELETON, MAKE_ARMATURE = (102, 360), (102, 386)
-MEASURE_THICKNESS, THICKEN = (102, 382), (102, 563)
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 314), (102, 340)
+MEASURE_THICKNESS, THICKEN = (102, 336), (102, 517)
 REBUILD_SOLID, OTHERS = (102, 316), (49, 316)
 FORM = (200, 95)
 SHOW_COLOURS, BELOW_LEGEND, BOTTOM = (30, 222), (200, 330), (30, 600)
@@ -243,7 +240,7 @@ def scene_compute_drag_undo():
     first, wide, before = facets(), area(), analyses()
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
-    yield from drag((220, 320), (250, 320))  # its theta
+    yield from drag((220, 291), (250, 291))  # its theta
     yield from look_after(1.0, "adjusted")
     adjusted = facets()
     assert 0 < adjusted != first and 0 < area() < wide and len(medial_objects()) == 1

@@ -139,12 +139,6 @@ class Lathe(Shape):
         return float(np.pi * (radii * lengths).sum())
 
     @cached_property
-    def axis_length(self) -> float:
-        """The length of the segments that lie on the z axis, and stay curves."""
-        radii = self.axis_segments[:, :, 0].sum(axis=1)
-        return float(_lengths(self.axis_segments)[radii < 1e-12].sum())
-
-    @cached_property
     def _areas(self) -> Array:
         return np.pi * self.edges[:, :, 0].sum(axis=1) * _lengths(self.edges)
 
