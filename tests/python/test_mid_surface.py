@@ -5,12 +5,13 @@ import json
 import shutil
 import subprocess
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.mid_surface import even_quads, few_faces, quad_pairs
+from medial_axis.core.mid_surface import even_quads, few_faces, quad_pairs, thin_sheets
 from medial_axis.core.mid_surface import mid_surface as middle
 from medial_axis.core.mid_surface.carried_sheets import CarriedSheets
 from medial_axis.core.mid_surface.crossed_borders import crossings
@@ -596,6 +597,19 @@ def test_files_and_figures(tmp_path, capsys):
     assert "g sheet1" in (tmp_path / "plate.obj").read_text()
     thick = write_off(tmp_path / "block.off", block(1.0, 0.9, 0.8))
     assert run(thick, tmp_path / "block.inp") == cli.INPUT
+
+
+def test_borders_of_many_pieces_are_their_own():
+    """The numbers of the pairs of edge and piece do not fit into 32 bits here."""
+    corner = np.arange(200 * 200).reshape(200, 200)[:-1, :-1].ravel()
+    axis = SimpleNamespace(
+        vertices=np.stack(np.divmod(np.arange(200 * 200), 200), axis=1).astype(float)
+        @ np.eye(2, 3),
+        face_offsets=np.arange(0, 4 * len(corner) + 1, 4, dtype=np.int32),
+        face_vertices=np.add.outer(corner, (0, 1, 201, 200)).astype(np.int32).ravel(),
+    )
+    lengths = thin_sheets._borders(axis, np.arange(len(corner)), len(corner))
+    np.testing.assert_array_equal(lengths, 4.0)
 
 
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")

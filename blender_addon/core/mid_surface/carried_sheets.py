@@ -144,7 +144,7 @@ class _Planes:
 
     def __init__(self, sheets: ThinSheets, bent: Flags, walls: Walls) -> None:
         count = len(sheets.vertices)
-        key = sheets.part[:, None] * np.int64(count) + sheets.triangles
+        key = sheets.part.astype(np.int64)[:, None] * count + sheets.triangles
         pairs, of_corner = np.unique(key, return_inverse=True)
         self._of_corner = of_corner.reshape(key.shape)
         part, self.vertex = np.divmod(pairs, count)

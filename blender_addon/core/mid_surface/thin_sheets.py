@@ -226,7 +226,7 @@ def _borders(axis: MedialAxis, part: Ints | Longs, parts: int) -> Floats:
     """(p,) the length of the border of each sheet."""
     edges, of_corner = _edges(axis)
     owner = np.repeat(part, np.diff(axis.face_offsets)).astype(np.int64)
-    pairs, uses = np.unique(of_corner * np.int64(parts) + owner, return_counts=True)
+    pairs, uses = np.unique(of_corner.astype(np.int64) * parts + owner, return_counts=True)
     edge, owner = np.divmod(pairs[uses == 1], parts)
     ends = axis.vertices[edges[edge]]
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
