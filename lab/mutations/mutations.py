@@ -866,6 +866,13 @@ MUTATIONS = (
         "a triangle is added between ends that have an edge",
     ),
     Mutation(
+        "exact/even_places.cpp",
+        "return has_two_feet && is_empty_between",
+        "return is_empty_between",
+        "rims end at balls with one foot",
+        python=("test_even.py",),
+    ),
+    Mutation(
         "exact/even_creases.cpp",
         "  mend();\n",
         "",

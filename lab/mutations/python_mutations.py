@@ -34,6 +34,20 @@ MUTATIONS = (
         "test_mid_surface.py",
     ),
     _bug(
+        "mid_surface/thin_sheets.py",
+        "uses[of.reshape(-1)] == 1",
+        "uses[of.reshape(-1)] >= 1",
+        "triangles that lie on each other stay",
+        "test_mid_surface.py",
+    ),
+    _bug(
+        "mid_surface/thin_sheets.py",
+        "of_corner.astype(np.int64) * parts",
+        "of_corner * parts",
+        "numbers of edges and pieces have 32 bits",
+        "test_mid_surface.py",
+    ),
+    _bug(
         "mid_surface/mid_surface.py",
         "dot(sheets.at_corners[own[nearest]], weights)",
         "dot(sheets.at_corners[nearest], weights)",
