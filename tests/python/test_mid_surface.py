@@ -599,6 +599,11 @@ def test_files_and_figures(tmp_path, capsys):
     assert run(thick, tmp_path / "block.inp") == cli.INPUT
 
 
+def test_triangles_that_two_facets_cut_off_alike_enclose_nothing():
+    triangles = np.array(((0, 1, 2), (0, 2, 3), (2, 1, 0), (2, 0, 4)))
+    assert thin_sheets._are_single(triangles).tolist() == [False, True, False, True]
+
+
 def test_borders_of_many_pieces_are_their_own():
     """The numbers of the pairs of edge and piece do not fit into 32 bits here."""
     corner = np.arange(200 * 200).reshape(200, 200)[:-1, :-1].ravel()
