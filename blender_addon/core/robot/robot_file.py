@@ -91,12 +91,13 @@ def _geometry_of(
     except MedialAxisError as error:
         meshes, problem = [], str(error)
     starts = np.cumsum([0, *(len(points) for points, _ in meshes)])
-    points = [points for points, _ in meshes] or [np.empty((0, 3))]
+    points = np.concatenate([points for points, _ in meshes] or [np.empty((0, 3))])
     corners = [mesh[1] + start for mesh, start in zip(meshes, starts, strict=False)]
     triangles = np.concatenate(corners or [np.empty((0, 3))]).astype(np.int32)
     spans = tuple((element.start, element.end) for element in elements)
-    shape = np.concatenate(points), triangles, spans, tuple(sorted(kinds))
-    return LinkGeometry(name, *shape, tuple(kept.items()), problem)
+    return LinkGeometry(
+        name, points, triangles, spans, tuple(sorted(kinds)), tuple(kept.items()), problem
+    )
 
 
 def _lines_of(tag: str, kept: dict[str, str], balls: Balls) -> list[str]:

@@ -46,11 +46,8 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
 
 def _draw_options(layout, settings):
     column = settings_column(layout)
-    for name in (
-        "limit",
-        "between",
-        "minimum_patch",
-    ):  # the others are in the panel of the operator
+    # The others are in the panel of the operator.
+    for name in ("limit", "between", "minimum_patch"):
         row = column.row()
         row.prop(settings, name)
         if name == "limit":
