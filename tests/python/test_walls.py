@@ -3,6 +3,7 @@
 
 import json
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -215,6 +216,14 @@ def test_wanted_spacings_show_what_is_missed():
     assert points.tolist() == np.eye(3)[:2].tolist() and spacings.tolist() == [0.05, 0.75]
     assert walls.wanted(0.2)[1].tolist() == [0.2, 0.75]
     assert walls.wanted(0.3)[1].tolist() == [0.75]  # the first stays too close
+
+
+def test_a_surface_bulges_where_the_middle_of_its_walls_would_be_outside():
+    given = np.eye(3), np.eye(3), np.ones(3), np.ones(3), np.arange(3)
+    walls = Walls(*given, distance=np.array([1, 1, np.inf]), bulge=np.array([0.4, 0.6, 0.3]))
+    assert walls.bulges.tolist() == [False, True, False]
+    assert replace(walls, bend=np.full(3, 0.3)).bulges.tolist() == [True, True, False]
+    assert replace(walls, bend=np.full(3, 0.1)).bulges.tolist() == [False, True, False]
 
 
 def test_no_spacing_is_wanted_above_that_of_the_first_pass():

@@ -18,7 +18,7 @@ from .chosen import ChosenSamples
 from .decide import Plan, plan_of
 from .density import percent
 from .doubts import Topology, worst_doubt
-from .next_amount import CROSSED, finer_in_pairs, next_amount, pairs_cross, sharp_on_flat
+from .next_amount import finer_in_pairs, next_amount, sharp_at_doubts, sharp_on_flat
 from .sample_spacing import Amount
 from .sides import decided
 
@@ -193,9 +193,11 @@ def _next_in_pairs(plan: Plan, compared: Sequence[Pass]) -> Amount | None:
     if number == _PASSES or _are_hopeless(tried):
         return None
     assert trial.topology is not None
-    flat = trial.amount.flat or sharp_on_flat(plan, samples)
-    if not flat and trial.differences and pairs_cross(plan, samples, trial.topology):
-        return replace(plan.first, pairs=True, flat=CROSSED)
+    flat = trial.amount.flat
+    if not flat and trial.differences:
+        flat = sharp_at_doubts(plan, samples, trial.topology)
+        if flat:
+            return replace(plan.first, pairs=True, flat=flat)
     return replace(finer_in_pairs(plan, samples, trial.topology, number, left), flat=flat)
 
 

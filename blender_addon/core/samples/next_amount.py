@@ -74,17 +74,20 @@ def finer_in_pairs(
     return Amount(budget, plan.first.spacing, sizing=(sites, spacings), pairs=True)
 
 
-def pairs_cross(plan: Plan, samples: Analysed, topology: Topology) -> bool:
-    """Return whether doubts lie beside edges of the faces that are rounded, and bend so much that pairs cross there.
+def sharp_at_doubts(plan: Plan, samples: Analysed, topology: Topology) -> float:
+    """Return from which angle edges are sharp if samples on the flat faces help against doubts, and 0 otherwise.
 
-    On the flat faces such an edge has samples and partners of its own.
+    Pairs cross beside edges that are rounded and bend much. On the flat faces such an edge has samples and partners of
+    its own. Elsewhere, facets between curved walls may lie outside these faces.
     """
     walls = samples.walls
     if walls is None or walls.rows is None:
-        return False
+        return 0.0
     bends = plan.given.shape.smooth_bends(plan.given.sharp)[walls.faces]
-    crossed = walls.rows[walls.are_of_sheets & (bends > CROSSED)]
-    return bool(np.isin(nearest(topology.places, samples.points), crossed).any())
+    doubted = np.isin(walls.rows, nearest(topology.places, samples.points))
+    if (doubted & walls.are_of_sheets & (bends > CROSSED)).any():
+        return CROSSED
+    return sharp_on_flat(plan, samples) if (doubted & walls.bulges).any() else 0.0
 
 
 def _are_missed_as_a_whole(samples: Analysed) -> bool:

@@ -27,9 +27,6 @@ _MISSED = 0.8  # measured: stage_sampling.md
 # Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
 # their distance; finer samples get this share.
 _FOLLOWED, _FINER = 0.4, 0.25  # chosen: axis
-# A smooth surface that leaves its flat faces by more than this share of the distance of walls, or of samples, is none
-# of the solid.
-_BULGING = 0.5  # chosen: unseen
 # A sample is on its flat face up to this share of the spacing.
 _FLAT = 1e-3  # derived: rounding
 # The feature size as a share of the distance of walls that differ by 30 degrees, as far as they are looked for, where
@@ -75,10 +72,16 @@ class Walls(Places):
 
     @property
     def bulges(self) -> Flags:
-        """(n,) where the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
+        """(n,) where facets between curved walls lie outside the flat faces, or samples leave these by half a spacing.
+
+        The middle of the walls leaves that of the faces by their bulge, and corners of facets leave it by half the
+        square of the spacing, times the curvature, in samples as fine as they will be.
+        """
         if self.bulge is None:
             return np.zeros(len(self.area), bool)
-        return np.asarray(self.bulge > _BULGING * np.minimum(self.distance, self.spacing))
+        bent = np.zeros(len(self.area)) if self.bend is None else self.spacing**2 * self.bend
+        corners = np.minimum(bent, _FINER * self.distance)
+        return np.asarray(self.bulge + corners / 2 > np.minimum(self.distance, self.spacing) / 2)
 
     @property
     def are_bulging(self) -> bool:
