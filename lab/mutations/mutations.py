@@ -873,6 +873,13 @@ MUTATIONS = (
         python=("test_even.py",),
     ),
     Mutation(
+        "exact/even_places.cpp",
+        "return walls.count == 1 ? ball_from_beyond(v) : Touch{};",
+        "return {};",
+        "vertices beyond a thin wall find no ball",
+        python=("test_even.py",),
+    ),
+    Mutation(
         "exact/even_creases.cpp",
         "  mend();\n",
         "",
@@ -891,6 +898,13 @@ MUTATIONS = (
         "return turn > kMostTurn;",
         "return turn > -2;",
         "changes turn triangles over",
+    ),
+    Mutation(
+        "remesh/even_mesh.cpp",
+        "(is_exact_ && turn > kMostTurn) || ",
+        "",
+        "needles may not get flatter at exact places",
+        python=("test_even.py",),
     ),
     Mutation(
         "remesh/even_mesh.cpp",

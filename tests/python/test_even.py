@@ -146,6 +146,13 @@ def test_rims_at_the_ends_of_thin_pipes_keep_their_order(of):
     assert np.minimum(abs(heights), abs(heights - of[-1])).max() < 1e-12 and len(heights) > 100
 
 
+@pytest.mark.parametrize("sides, wall", [(12, 0.02), (24, 0.01)])
+def test_vertices_of_thin_pipes_find_their_places(sides, wall):
+    """Edges of the mesh cut the corners of the walls, so vertices lay beyond these: 32 and 35 in 100 were refused."""
+    level = medial_axis.compute(*pipe(sides, 1.0, 1.0, wall, 12.0), side="inner").axis.level
+    assert level.refused < 0.03 * len(level.place) and level.betti == (1, 1, 0)
+
+
 @pytest.mark.parametrize("name", ["rocker-arm.off", "mannequin.off", "spot_low.obj"])
 def test_sheets_end_inside(medial, name):
     """Balls touched the rocker arm from outside, and refused vertices of the other two lay there."""

@@ -142,12 +142,34 @@ std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
   return has_two_feet && is_empty_between(samples_, ball, hole) ? ball : Touch{};
 }
 
+// Returns the ball of a vertex that sees walls on one side of its sheet only: it is beyond a thin
+// wall, whose corner the mesh cuts. There the facets know on which side a wall is, as the normal of
+// a triangle points to the second sample of its facet, and the search begins between the feet.
+Touch EvenPlaces::ball_from_beyond(int32_t v) const {
+  if (e_.mesh.stratum(v) != Stratum::sheet) return {};
+  const Vec3 across = normal_at(e_, v);
+  std::array<Foot, 2> nearest;
+  e_.mesh.for_triangles(v, [&](int32_t t) {
+    const bool alike = dot(e_.normal[t], across) > 0;
+    for (const int i : {0, 1}) {
+      const int32_t wall = samples_.triangle(generators_[e_.source[t]][i]);
+      const Foot foot = samples_.faces().descend(wall, e_.position[v]);
+      Foot& least = nearest[alike ? i : 1 - i];
+      if (foot.distance < least.distance) least = foot;
+    }
+  });
+  Walls walls;
+  for (const Foot& foot : nearest) walls.add(foot.triangle);
+  const Vec3 between = 0.5 * (nearest[0].point + nearest[1].point);
+  return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, between, 2, true);
+}
+
 Touch EvenPlaces::ball_of_walls(int32_t v) const {
   const auto smooth = smooth_ball_at(v, e_.position[v], nearest_walls(v));
   if (smooth && !finishes_) return *smooth;  // rims beyond their end go back to it
   if (smooth && smooth->radius > 0 && is_empty(samples_, *smooth, hole_at(v))) return *smooth;
   const Walls walls = walls_of(v);
-  if (walls.count < 2) return {};
+  if (walls.count < 2) return walls.count == 1 ? ball_from_beyond(v) : Touch{};
   const size_t most = e_.mesh.stratum(v) == Stratum::node ? kMostContacts : walls.count;
   return empty_ball(samples_, {e_.position[v], hole_at(v)}, walls, e_.position[v], most, true);
 }
@@ -172,23 +194,6 @@ void EvenPlaces::finish() {
     if (keeps_sides(e_, v, mean)) move(e_, v, mean);
   }
   place(refused);
-  bring_inside();
-}
-
-// A refused vertex outside the faces goes as far inside as it was outside.
-void EvenPlaces::bring_inside() {
-  for (const int32_t v :
-       vertices_where([&](int32_t v) { return placing_[v] == Placing::refused; })) {
-    const auto foot = samples_.faces().nearer(e_.position[v], HUGE_VAL);
-    if (!foot || !is_beyond(*foot, e_.position[v])) continue;
-    const Vec3 mirrored = 2.0 * foot->point - e_.position[v];
-    if (keeps_sides(e_, v, mirrored)) move(e_, v, mirrored);
-  }
-}
-
-// Returns whether a place is on the outer side of the wall of its foot.
-bool EvenPlaces::is_beyond(const Foot& foot, const Vec3& place) const {
-  return dot(place - foot.point, samples_.faces().normal(foot.triangle, foot.at)) > 0;
 }
 
 // Returns the mean of the neighbours of a vertex inside a sheet, each once for its two triangles.
@@ -230,7 +235,7 @@ void EvenPlaces::place(std::span<const int32_t> vertices) {
     if (!has_walls(v)) continue;
     const Touch& ball = found_[v];
     const bool fits = ball.radius > 0 && distance(ball.position, e_.position[v]) < e_.target[v] &&
-                      keeps_sides(e_, v, ball.position);
+                      can_be_placed(e_, v, ball.position);
     placing_[v] = fits ? Placing::touching : Placing::refused;
     if (!fits) continue;
     move(e_, v, ball.position);
@@ -318,7 +323,8 @@ SmoothRim EvenPlaces::last_ball(int32_t v) const {
 bool EvenPlaces::is_beyond_walls(int32_t v, const Vec3& place) const {
   Walls walls = found_[v].walls;
   return std::ranges::any_of(walls.all(), [&](int32_t triangle) {
-    return is_beyond(samples_.faces().descend(triangle, place), place);
+    const Foot foot = samples_.faces().descend(triangle, place);
+    return dot(place - foot.point, samples_.faces().normal(foot.triangle, foot.at)) > 0;
   });
 }
 

@@ -56,14 +56,13 @@ class EvenPlaces {
   std::vector<Foot> feet_of(int32_t v) const;
   Walls walls_of(int32_t v) const;
   Touch ball_at(int32_t v) const;
+  Touch ball_from_beyond(int32_t v) const;
   Touch ball_of_walls(int32_t v) const;
   Walls nearest_walls(int32_t v) const;
   std::optional<Touch> smooth_ball_at(int32_t v, const Vec3& start, const Walls& walls) const;
   SmoothRim way_out(int32_t v) const;
   SmoothRim last_ball(int32_t v) const;
   bool is_beyond_walls(int32_t v, const Vec3& place) const;
-  bool is_beyond(const Foot& foot, const Vec3& place) const;
-  void bring_inside();
   SmoothRim before_third_wall(int32_t v) const;
   bool has_parallel_walls(int32_t v) const;
   Touch ball_between(int32_t v, const Vec3& start) const;

@@ -47,9 +47,11 @@ bool contains(std::span<const int32_t> all, int32_t one) {
 // The triangles at a vertex, as they would be if it moved.
 class MovedStar {
  public:
-  // Triangles at the edges to `without` vanish, and keep no side.
-  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, std::span<const int32_t> without)
-      : e_(even) {
+  // Triangles at the edges to `without` vanish, and keep no side. Needles get no flatter, unless
+  // `is_exact`.
+  MovedStar(const EvenMesh& even, int32_t v, const Vec3& place, std::span<const int32_t> without,
+            bool is_exact = false)
+      : e_(even), is_exact_(is_exact) {
     e_.mesh.for_triangles(v, [&](int32_t t) {
       if (!keeps_sides_) return;
       const Triangle& corners = e_.mesh.triangle(t);
@@ -91,7 +93,8 @@ class MovedStar {
     const double turn = dot(after.normal, e_.normal[t]);
     if (after.height >= kNeedle) return turn > kMostTurn;
     const double before = plane_of(places_of(e_, e_.mesh.triangle(t))).height;
-    return before < kNeedle && after.height >= before && turn >= 0;
+    if (before >= kNeedle) return false;
+    return (is_exact_ && turn > kMostTurn) || (after.height >= before && turn >= 0);
   }
 
   // At the edge that is not at the vertex.
@@ -128,6 +131,7 @@ class MovedStar {
   }
 
   const EvenMesh& e_;
+  bool is_exact_;
   ShortList<Moved> star_;
   bool keeps_sides_ = true;
 };
@@ -137,6 +141,10 @@ class MovedStar {
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place,
                  std::span<const int32_t> without) {
   return MovedStar(even, v, place, without).is_sound();
+}
+
+bool can_be_placed(const EvenMesh& even, int32_t v, const Vec3& place) {
+  return MovedStar(even, v, place, {}, true).is_sound();
 }
 
 bool is_turned_over(const EvenMesh& even, int32_t triangle) {

@@ -33,6 +33,9 @@ struct EvenMesh {
 // at the edges to `without` do not count.
 bool keeps_sides(const EvenMesh& even, int32_t v, const Vec3& place,
                  std::span<const int32_t> without = {});
+// Does the same for the place where a ball touches the faces, at which needles may get flatter: a
+// sheet that ends just beside a seam is one, and is right.
+bool can_be_placed(const EvenMesh& even, int32_t v, const Vec3& place);
 // Returns whether a triangle whose corners have moved since is turned over.
 bool is_turned_over(const EvenMesh& even, int32_t triangle);
 // Returns whether all triangles at a vertex that has an edge to another one would keep their side
