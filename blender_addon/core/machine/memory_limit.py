@@ -112,10 +112,10 @@ WHAT_IS_FREE = MemoryLimit()
 # These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels use the inner side.
 # A solid has outer facets only at its hollows; the figures are those of a solid with many.
 _OF_LEVELS = {  # {faces: {output: bytes}}
-    False: {"": 3100, CURVE: 2010, ".ma": 3570, OBJECT: 3570},
-    True: {"": 3250, CURVE: 2200, ".ma": 3350, OBJECT: 3740},
+    False: {"": 3000, CURVE: 2640, OBJECT: 3570},
+    True: {"": 3100, CURVE: 2900, OBJECT: 3740},
 }
-_OF_CRISP, _OF_TRIANGLE = 150, 950  # crisp places, per point and per triangle, in addition
+_OF_CRISP, _OF_TRIANGLE = 150, 410  # crisp places, per point and per triangle, in addition
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
     False: {
         Side.INNER: {"": 1930, ".ply": 2100, ".ma": 2800, OBJECT: 2330},
