@@ -279,7 +279,7 @@ def assert_one_loop(sides, wall, length=12.0):
 
 
 @pytest.mark.parametrize("of", [(13, 0.05), (24, 0.01), (32, 0.012, 4.0), (32, 0.01, 4.0)])
-def test_a_thin_tube_of_few_flat_sides_takes_one_pass_in_pairs(of):
+def test_the_axis_of_a_thin_tube_of_flat_sides_has_one_loop(of):
     """Its smooth surface leaves its walls, and edges of its flat faces that had no samples made loops.
 
     It left walls of 32 sides by less than half their distance, and facets lay outside: 2 and 29 loops.
