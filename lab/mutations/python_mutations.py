@@ -268,6 +268,20 @@ MUTATIONS = (
     ),
     # ---- skeleton
     _bug(
+        "skeleton/fill.py",
+        "    decide(smooth, lips[~hidden[lips]])\n",
+        "",
+        "the wall of a bore stays at the lip of a slanted mouth",
+        "test_fill.py",
+    ),
+    _bug(
+        "skeleton/fill.py",
+        "+ int(np.argmax(ends)) if ends.any() else len(chain) - 1",
+        "+ len(ends) - 1",
+        "limbs go on into the corners between lids and walls",
+        "test_fill.py",
+    ),
+    _bug(
         "skeleton/chords.py",
         "/ tolerance[inner]",
         "/ tolerance[first]",

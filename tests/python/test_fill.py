@@ -16,14 +16,19 @@ from support.meshes import flip, revolved, shape_of, write_off
 from support.thick_meshes import block, lathe, shell
 from support.thin_solids import union
 
-BEND, OUTSIDE, INSIDE = 5.0, 1.0, 0.8
+BEND, OUTSIDE, INSIDE, SHARP = 5.0, 1.0, 0.8, np.pi / 6
 
 
-def bent_pipe(turn=np.pi / 2, rings=40, around=32):
+def pipe(low, high, inside=INSIDE, rings=40, around=32):
+    """A pipe round Z with flat ends; the second half of the points is inside, from its end on."""
+    along = np.linspace(low, high, rings)
+    profile = [*((OUTSIDE, at) for at in along), *((inside, at) for at in along[::-1])]
+    return revolved(profile, around)
+
+
+def bent_pipe(turn=np.pi / 2):
     """A pipe with flat ends along an arc round Z; the second half of the points is inside, from its end on."""
-    along = np.linspace(0.0, turn, rings)
-    profile = [*((OUTSIDE, at) for at in along), *((INSIDE, at) for at in along[::-1])]
-    points, triangles = revolved(profile, around)
+    points, triangles = pipe(0.0, turn)
     away, angle = BEND + points[:, 0], points[:, 2]
     return flip(
         (np.column_stack((away * np.cos(angle), away * np.sin(angle), points[:, 1])), triangles)
@@ -49,7 +54,7 @@ BOTTLE = [
 @pytest.mark.parametrize("profile", [CUP, BOTTLE], ids=["cup", "bottle"])
 def test_vessels_are_filled_to_their_lip(profile):
     """The bottom of a cup has no wall before it, but lies within the wall round it."""
-    found = filled(shape_of(lathe(profile)))
+    found = filled(shape_of(lathe(profile)), SHARP)
     outer = [*profile[: len(profile) // 2], (0.0, profile[len(profile) // 2 - 1][1])]
     assert found.shape.volume == pytest.approx(shape_of(lathe(outer)).volume, rel=1e-12)
     assert found.shape.open_edges == 0 and found.shape.solid_betti == (1, 0, 0)
@@ -59,10 +64,10 @@ def test_bores_and_cavities_are_filled():
     for mesh, loops in ((bent_pipe(), 1), (duct(), 2), (shell(), 0)):
         shape = shape_of(mesh)
         assert shape.solid_betti == (1, loops, 0 if loops else 1)
-        found = filled(shape)
+        found = filled(shape, SHARP)
         assert found.shape.solid_betti == (1, 0, 0) and 0.3 < found.share < 0.5
     volume = 7 * 7 * (33 + 14.5)
-    assert filled(shape_of(duct())).shape.volume == pytest.approx(volume, rel=0.02)
+    assert filled(shape_of(duct()), SHARP).shape.volume == pytest.approx(volume, rel=0.02)
 
 
 def test_a_bent_pipe_has_its_arc_with_either_radius():
@@ -81,6 +86,21 @@ def test_a_bent_pipe_has_its_arc_with_either_radius():
         lines.append(found.curve.points)
         assert len(found.parts.faces) == len(shape.triangles) and (found.parts.faces == 0).all()
     np.testing.assert_array_equal(*lines)
+
+
+@pytest.mark.parametrize("inside", [INSIDE, 0.95])
+@pytest.mark.parametrize("slant", [0.25, 0.5, 1.0])
+def test_a_pipe_with_slanted_mouths_keeps_its_line(slant, inside):
+    """The wall of the bore is inside up to its lip, and the line does not go on into the corners of the lids."""
+    points, triangles = pipe(-4.0, 4.0, inside)
+    points[:, 2] += slant * points[:, 0] * np.abs(points[:, 2]) / 4.0
+    shape = shape_of(flip((points, triangles)))
+    assert len(filled(shape, SHARP).inner) == 2 * 39 * 32
+    found = compute_skeleton(shape, Settings(), SkeletonSettings(fill=Fill.INSIDE))
+    line = found.skeleton
+    assert (line.count, line.tips, line.loops) == (1, 2, 0)
+    assert np.hypot(*line.points[:, :2].T).max() < 0.1
+    assert line.radius.min() > 0.85 * inside and line.length > 8.0 - 2.0 * (1.0 + slant)
 
 
 def test_a_branching_duct_has_a_fork(tmp_path, capsys):
@@ -109,9 +129,9 @@ def test_bones_of_a_pipe_have_weights_on_both_walls():
 
 def test_what_is_not_hollow_stays():
     shape = shape_of(block(3.0, 1.0, 1.0))
-    found = filled(shape)
+    found = filled(shape, SHARP)
     assert found.shape is shape and found.share == 0.0
     made = compute_skeleton(shape, Settings(), SkeletonSettings(fill=Fill.OUTSIDE))
     assert "nothing is hollow, so Fill changed nothing" in made.warnings
     with pytest.raises(InvalidInputError, match="Expected faces for Fill, found points only"):
-        filled(Shape(shape.points, np.zeros((0, 3), np.int32)))
+        filled(Shape(shape.points, np.zeros((0, 3), np.int32)), SHARP)

@@ -145,6 +145,15 @@ class Net:
         del self.at[chain[-1]]
         self._join(chain[0])
 
+    def shorten(self, name: int, kept: list[int]) -> None:
+        """Leave the first points of a branch to a tip; the last one becomes the tip, and takes over the others."""
+        gone = [row for row in self.branches[name] if row not in kept]
+        self._take(name)
+        self._give(gone, kept[-1])
+        for row in gone:
+            self.at.pop(row, None)
+        self.add(kept)
+
     def end_at(self, name: int, kept: list[int], tip: int) -> None:
         """Lead a branch from its `kept` points straight to its tip, which takes over the points in between."""
         chain = self.branches[name]

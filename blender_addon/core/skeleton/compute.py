@@ -29,9 +29,10 @@ from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..settings import Fill, KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from ..shape.nearness import nearest
 from ..shape.shape import Shape
+from ..shape.solid_faces import sharp_angle_of
 from .chords import keep_inside, kept_inside, kept_points
 from .chosen_ends import join_ends
-from .fill import Filled, filled
+from .fill import Filled, end_at_lids, filled
 from .forks import draw_forks
 from .join_pieces import join_pieces, no_joins
 from .middle import inscribe, lead_through_middle
@@ -90,7 +91,7 @@ def compute_skeleton(
         The samples span no volume, enclose nothing, or enclose a solid without a curve.
     """
     _check_ends(ends)
-    full = None if wanted.fill is Fill.OFF else filled(shape)
+    full = None if wanted.fill is Fill.OFF else filled(shape, sharp_angle_of(shape, settings))
     begun = begin(
         full.shape if full else shape,
         replace(settings, side=Side.INNER),
@@ -110,6 +111,8 @@ def compute_skeleton(
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
     joined, joins = join_pieces(net, depth, begun.shape) if by_faces else (0, no_joins())
     lead_through_middle(net, depth)
+    if full is not None:
+        end_at_lids(net, full)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_whole(net, names))[0])
     mirrored = wanted.mirror and make_symmetric(net, plane)

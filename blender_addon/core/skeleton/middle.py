@@ -19,7 +19,7 @@ from ..small_matrices import dot
 
 _ROUNDS = 2  # so often branches become smooth lines, and their points move
 _AHEAD = 1e-3  # in this many radii the distance is looked at to learn where the nearest place is; derived: rounding
-_AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is from one place; derived: rounding
+AS_FAR = 1e-3  # a distance that grows by less than this share less than the way is from one place; derived: rounding
 _HALVED = 10  # so often the range of a move is halved
 _ONE_SIDE = 0.5  # where it grows by a smaller share of the way, nearest places lie on two sides; chosen: skeleton
 
@@ -72,7 +72,7 @@ def _middles(places: Floats, depth: Depth) -> Floats:
     low, high = np.zeros(len(places)), FARTHEST * room
     for _ in range(_HALVED):
         far = (low + high) / 2.0
-        fits = depth(places + far[:, None] * way) >= (1.0 - _AS_FAR) * (room + far)
+        fits = depth(places + far[:, None] * way) >= (1.0 - AS_FAR) * (room + far)
         low, high = np.where(fits, far, low), np.where(fits, high, far)
     return places + low[:, None] * way
 
