@@ -268,6 +268,13 @@ MUTATIONS = (
     ),
     # ---- skeleton
     _bug(
+        "curves/rules.py",
+        "np.minimum(net.radius[ends], net.radius[tip])",
+        "net.radius[ends] + net.radius[tip]",
+        "fingers beside each other are one limb",
+        "test_skeleton.py",
+    ),
+    _bug(
         "skeleton/fill.py",
         "    decide(smooth, lips[~hidden[lips]])\n",
         "",

@@ -8,7 +8,7 @@ import pytest
 from medial_axis.cli import main
 from medial_axis.core.curves.ends import balls_of
 from medial_axis.core.curves.net import Net
-from medial_axis.core.curves.rules import Loops, clear_loops, open_loops, prune
+from medial_axis.core.curves.rules import Loops, clear_loops, join_tips, open_loops, prune
 from medial_axis.core.curves.spread import graph_of, spread
 from medial_axis.core.errors import DegenerateInputError, InvalidInputError, ReadError
 from medial_axis.core.files.read_shape import read_shape
@@ -585,6 +585,16 @@ def test_loops_open_at_their_thinnest_edge():
     open_loops(net)
     assert loops > 0 and net.loops() == 0 and len(net.tips()) >= tips + 1
     assert {row for chain in net.branches.values() for row in chain} == rows
+
+
+@pytest.mark.parametrize("apart, limbs", [(0.9, 1), (1.1, 3)])
+def test_limbs_that_end_in_one_ball_are_one(apart, limbs):
+    """The lighter one goes, and the other one continues the branch; two fingers with room between them stay."""
+    points = [(0, 0, 0), (4, 0, 0), (5, -apart / 2, 0), (5, apart / 2, 0)]
+    net = net_of(points, [(0, 1), (1, 2), (1, 3)], 1.0, [4, 1, 1, 2])
+    join_tips(net)
+    assert len(net.branches) == limbs and net.load.sum() == 8.0
+    assert limbs > 1 or list(map(sorted, net.branches.values())) == [[0, 1, 3]]
 
 
 def test_an_end_where_a_limb_forks_once_more():

@@ -132,6 +132,21 @@ def drop_leaves(net: Net, share: float, balls: Balls) -> Iterator[None]:
             yield
 
 
+def join_tips(net: Net) -> None:
+    """Remove the lighter one of two limbs from one fork whose ends lie in each other's balls: nothing parts them."""
+    for name in sorted(net.leaves(), key=net.carried):
+        if name in net.branches and _has_twin(net, name):
+            net.drop_leaf(name)
+
+
+def _has_twin(net: Net, name: int) -> bool:
+    fork, *_, tip = net.from_fork(name)
+    others = [other for other in net.at[fork] if other != name and len(net.ends_free(other)) == 1]
+    ends = np.array([net.from_fork(other)[-1] for other in others], np.int64)
+    away = np.linalg.norm(net.points[ends] - net.points[tip], axis=1)
+    return bool((away < np.minimum(net.radius[ends], net.radius[tip])).any())
+
+
 def join_forks(net: Net) -> None:
     """Merge two forks if the branch between them is shorter than half the radius of the smaller of their balls."""
     while (name := _shortest_between_forks(net)) is not None:

@@ -18,7 +18,7 @@ from ..curves.depth import Depth
 from ..curves.ends import end_limbs
 from ..curves.loaded_net import LoadedNet, genuine_loops, loaded_net
 from ..curves.net import Net
-from ..curves.rules import Loops, clear_loops, join_forks, open_loops, prune
+from ..curves.rules import Loops, clear_loops, join_forks, join_tips, open_loops, prune
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -195,6 +195,8 @@ def _drawn(
     net = loaded.net
     join_forks(net)
     owner = end_limbs(net, loaded.owner, loaded.balls, tips)
+    if tips is None:
+        join_tips(net)
     if wanted.loops is KeptLoops.OPEN:
         open_loops(net)
     draw_forks(net, samples.points)
