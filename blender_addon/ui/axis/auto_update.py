@@ -95,6 +95,7 @@ def _after_update(_scene, depsgraph):
     sources = {source_of(result) for result in live_results()}
     if not sources:
         _switch_handler(False)
+        _touch()  # a job may run for a source that was removed
     elif any(_concerns(update.id.original, sources) for update in depsgraph.updates):
         _touch()
 

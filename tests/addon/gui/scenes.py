@@ -505,10 +505,11 @@ def disabled_while_it_waits():
 
 
 def deleted_source_ends_it():
-    bpy.context.object.scale.y = 2.0
-    yield job_exists
-    bpy.data.objects.remove(bpy.context.object)
-    yield no_job
+    with held(addon("core.axis.compute"), "extract"):
+        bpy.context.object.scale.y = 2.0
+        yield job_exists
+        bpy.data.objects.remove(bpy.context.object)
+        yield no_job
     yield 2.0
     assert job() is None and not bpy.context.scene.medial_axis.note
     assert addon("ui.axis.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
