@@ -151,7 +151,7 @@ def _lidded(shape: Shape, faces: Ints, place: Longs) -> tuple[Shape, Ints]:
     for loop in _openings(corner):
         middle = points[loop].mean(axis=0)
         normals = np.cross(points[np.roll(loop, -1)] - middle, points[loop] - middle)
-        if (normals @ normals.sum(axis=0) >= 0.0).all():
+        if (dot(normals, normals.sum(axis=0)) >= 0.0).all():
             apex = np.full(len(loop), len(points) + len(middles))
             lids.append(np.column_stack((np.roll(loop, -1), loop, apex)))
             middles.append(middle)
