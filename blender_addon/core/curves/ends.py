@@ -85,9 +85,7 @@ def end_limbs(net: Net, owner: Longs, balls: Balls, tips: list[int] | None = Non
 
 
 def _end(net: Net, tip: int, owner: Longs, balls: Balls) -> None:
-    (name,) = net.at[tip]
-    chain = net.branches[name]
-    chain = chain if chain[-1] == tip else chain[::-1]
+    name, chain = net.limb(tip)
     last = next(
         (at for at in range(len(chain))[:0:-1] if len(balls.of(net.held(chain[at : at + 1])))), 0
     )

@@ -107,6 +107,12 @@ class Net:
         chain = self.branches[name]
         return chain[::-1] if self._is_tip(chain[0]) else chain
 
+    def limb(self, tip: int) -> tuple[int, list[int]]:
+        """Return the branch that ends at a tip, and its points, of which the tip is the last one."""
+        (name,) = self.at[tip]
+        chain = self.branches[name]
+        return name, chain if chain[-1] == tip else chain[::-1]
+
     def carried(self, name: int) -> float:
         """Return the load of a leaf without its fork."""
         return float(self.load[self.from_fork(name)[1:]].sum())

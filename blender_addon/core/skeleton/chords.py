@@ -103,7 +103,7 @@ def _turned_back(net: Net, edge: tuple[int, int, int], depth: Depth) -> bool:
     tip = next((node for node in net.ends_free(name) if node in ends), None)
     if tip is None:
         return False
-    chain = chain if chain[-1] == tip else chain[::-1]
+    _, chain = net.limb(tip)
     rows = np.array(chain[len(chain) // 2 : -1][::-1], np.intp)
     to_tip = np.column_stack((rows, np.full(len(rows), tip)))
     inside = np.flatnonzero(~leave(net.points[to_tip], net.radius[to_tip], depth))

@@ -55,8 +55,8 @@ def filled(shape: Shape, sharp: float) -> Filled:
         )
     read = outward_shape(shape)
     place = same_place(read.points)
-    _, twice = unit_normals(read.points[read.triangles])
-    hidden = _hidden(read, place, twice > 0.0, sharp)
+    normals, twice = unit_normals(read.points[read.triangles])
+    hidden = _hidden(read, place, normals, twice > 0.0, sharp)
     faces = read.triangles
     if not hidden.any():
         return Filled(shape, faces[:0], faces[:0], 0.0)
@@ -67,9 +67,7 @@ def filled(shape: Shape, sharp: float) -> Filled:
 def end_at_lids(net: Net, full: Filled) -> None:
     """End limbs at the first ball from which on most touch a lid; the corners between lids and walls are no limbs."""
     for tip in net.tips() if len(full.lids) else ():
-        name = net.at[tip][0]
-        chain = net.branches[name]
-        chain = chain if chain[-1] == tip else chain[::-1]
+        name, chain = net.limb(tip)
         with own_errors() as module:
             room = module.surface_distances(net.points[chain], full.shape.points, full.lids)
         radius = net.radius[chain]
@@ -84,10 +82,9 @@ def end_at_lids(net: Net, full: Filled) -> None:
             net.shorten(name, chain[: max(last, 1) + 1])
 
 
-def _hidden(shape: Shape, place: Longs, proper: Flags, sharp: float) -> Flags:
+def _hidden(shape: Shape, place: Longs, normals: Floats, proper: Flags, sharp: float) -> Flags:
     """Return which faces lie inside of others."""
     points, faces = shape.points, shape.triangles
-    normals, _ = unit_normals(points[faces])
     diagonal = length_of(np.ptp(points, axis=0))
     looks = points[faces].mean(axis=1) + ASIDE * diagonal * normals
     hidden = _has_opposite_wall(points, faces, normals, diagonal) & proper
