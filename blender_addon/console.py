@@ -13,6 +13,7 @@ import os
 import sys
 from typing import Any, TextIO
 
+from .core.counted import counted
 from .core.files.names import shown
 from .core.samples.density import percent
 
@@ -87,10 +88,6 @@ class Console:
             _turn_off("stderr")
 
 
-def _shapes(report: dict[str, Any]) -> str:
-    return "balls" if report["settings"]["shapes"] == "balls" else "capsules"
-
-
 def _length(value: float | None) -> str:
     return "unknown" if value is None else f"{value:.4g}"
 
@@ -99,7 +96,7 @@ def _ended(report: dict[str, Any]) -> str:
     if "verdict" in report:
         return report["verdict"]
     if "links" in report:
-        return "\n  ".join([f"{len(report['links']):,} links", *map(_link, report["links"])])
+        return "\n  ".join([counted(len(report["links"]), "link"), *map(_link, report["links"])])
     how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
     return f"{_said(report)}, {how}"
 
@@ -108,9 +105,9 @@ def _link(link: dict[str, Any]) -> str:
     """A row of the table of links."""
     if link["problem"] or not link["count"]:
         return f"{link['name']}: {link['problem'] or 'spheres or capsules, as it was'}"
-    shapes = link["shapes"][:-1] if link["count"] == 1 else link["shapes"]
+    shapes = counted(link["count"], link["shapes"][:-1])
     return (
-        f"{link['name']}: {link['count']:,} {shapes}, volume {link['volume']:.4g}, "
+        f"{link['name']}: {shapes}, volume {link['volume']:.4g}, "
         f"farthest {link['farthest']:.4g}, {link['seconds']:.2f} s"
     )
 
@@ -118,23 +115,24 @@ def _link(link: dict[str, Any]) -> str:
 def _said(report: dict[str, Any]) -> str:
     """The content of an output, in a few words."""
     if "facets" in report:
-        edges = f", {report['edges']:,} edges" if report.get("edges") else ""
-        return f"{report['facets']:,} facets{edges}"
+        edges = f", {counted(report['edges'], 'edge')}" if report.get("edges") else ""
+        return f"{counted(report['facets'], 'facet')}{edges}"
     if "ends" in report:
-        counts = (f"{report[what]:,} {what}" for what in ("branches", "ends", "loops"))
-        return ", ".join(counts)
+        branches = counted(report["branches"], "branch", "branches")
+        return f"{branches}, {counted(report['ends'], 'end')}, {counted(report['loops'], 'loop')}"
     if "sheets" in report and "share_of_volume" in report:
-        return f"{report['sheets']:,} sheets, {100 * report['share_of_volume']:.1f} % of the volume"
+        return f"{counted(report['sheets'], 'sheet')}, {100 * report['share_of_volume']:.1f} % of the volume"
     if "covered" in report:
+        shape = "ball" if report["settings"]["shapes"] == "balls" else "capsule"
         return (
-            f"{report['count']:,} {_shapes(report)}, {100 * report['covered']:.1f} % of the volume, "
+            f"{counted(report['count'], shape)}, {100 * report['covered']:.1f} % of the volume, "
             f"{report['outside']:.4g} outside, surface at most {report['farthest']:.4g} away"
         )
     if "share_without_room" in report:
         lack = percent(report["share_without_room"])
         return f"wall {report['wall']:.4g}, {report['least_wall']:.4g} at least, no room on {lack}"
     if "cavities" in report:
-        cavities = "1 cavity" if report["cavities"] == 1 else f"{report['cavities']:,} cavities"
+        cavities = counted(report["cavities"], "cavity", "cavities")
         left = percent(report["volume"] / report["volume_of_solid"])
         return f"{cavities}, {left} of the volume left, wall at least {report['least_wall']:.4g}"
     if "farthest_move" in report:
@@ -151,7 +149,7 @@ def _said(report: dict[str, Any]) -> str:
     if not report["limit"]:
         return minimum
     patches, share = len(report["patches"]), percent(report["share_below"])
-    where = f" in {patches:,} {'patch' if patches == 1 else 'patches'}" if patches else ""
+    where = f" in {counted(patches, 'patch', 'patches')}" if patches else ""
     return f"{minimum}, {share} below {report['limit']:g}{unit}{where}"
 
 

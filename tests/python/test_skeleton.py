@@ -478,10 +478,10 @@ def test_command_line(tmp_path, capsys):
     source, target = str(tmp_path / "ring.npz"), str(tmp_path / "ring.json")
     np.savez(source, **dict(zip(("points", "triangles"), meshes.torus())))
     assert main(["skeleton", source, target, "--detail", "0.4"]) == 0
-    assert "1 branches, 0 ends, 1 loops" in capsys.readouterr().out
+    assert "1 branch, 0 ends, 1 loop" in capsys.readouterr().out
     assert len(json.loads((tmp_path / "ring.json").read_text())["parts"]) == 1
     assert main(["skeleton", source, target, "--loops", "open"]) == 0
-    assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
+    assert "1 branch, 2 ends, 0 loops" in capsys.readouterr().out
 
 
 def test_command_line_takes_ends(tmp_path, capsys):
@@ -492,7 +492,7 @@ def test_command_line_takes_ends(tmp_path, capsys):
     np.savez(words[1], points=points, normals=solid.normals(points))
     ends = [f"--end={','.join(map(str, line[-1]))}" for line in solid.lines[:2]]
     assert main([*words, *ends]) == 0
-    assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
+    assert "1 branch, 2 ends, 0 loops" in capsys.readouterr().out
     assert main(words) == 0
     assert "3 branches, 3 ends, 0 loops" in capsys.readouterr().out
     assert main([*words, ends[0]]) == 3

@@ -5,9 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..counted import counted
 from ..samples.analysed import Analysed
 from ..settings import OPTIONS, Form, SidesFrom
 from .medial_axis import MedialAxis
+
+_NAMES = ("piece", "pieces"), ("loop", "loops"), ("cavity", "cavities")
 
 
 def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
@@ -39,22 +42,15 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
 
 def betti_words(betti: tuple[int, int, int]) -> str:
     """Format Betti numbers as '1 piece, 5 loops, no cavity'."""
-    pieces, loops, cavities = betti
-    cavity = {0: "no cavity", 1: "1 cavity"}.get(cavities, f"{cavities:,} cavities")
-    one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}
-    loop = one.get(loops, f"{loops:,} loops, {cavity}")
-    return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
+    named = zip(betti, _NAMES, strict=True)
+    return ", ".join(
+        counted(number, *names) if number else f"no {names[0]}" for number, names in named
+    )
 
 
 def betti_in_short(betti: Sequence[int]) -> list[str]:
     """Format those Betti numbers that are not 0 as '1 piece', '5 loops' and '1 cavity'."""
-    pieces, loops, cavities = betti
-    found = ["1 piece" if pieces == 1 else f"{pieces:,} pieces"]
-    if loops:
-        found.append("1 loop" if loops == 1 else f"{loops:,} loops")
-    if cavities:
-        found.append("1 cavity" if cavities == 1 else f"{cavities:,} cavities")
-    return found
+    return [counted(number, *names) for number, names in zip(betti, _NAMES, strict=True) if number]
 
 
 def _why(betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: Analysed) -> str:

@@ -13,6 +13,7 @@ from ..arrays import Floats, Ints
 from ..axis.levels import hierarchy_of
 from ..axis.medial_axis import no_edges
 from ..axis.solid_warnings import solid_warnings
+from ..counted import counted
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
@@ -91,7 +92,7 @@ class Balls:
     @property
     def words(self) -> str:
         """How many there are, for people."""
-        return f"{self.count:,} capsules" if len(self.edges) else f"{self.count:,} balls"
+        return counted(self.count, "capsule" if len(self.edges) else "ball")
 
     @property
     def is_tapered(self) -> bool:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
+from ..counted import counted
 from ..errors import ReadError
 from ..portable_angle import turn_about
 from ..small_matrices import times
@@ -23,10 +24,9 @@ def numbers_of(
         numbers = np.empty(0)
     right = len(numbers) == count and np.isfinite(numbers).all()
     if not right or not (signed or (numbers > 0).all()):
-        what = "number" if count == 1 else "numbers"
         above = "" if signed else " above 0"
         raise ReadError(
-            f"Expected {count} {what}{above} as {name} of <{element.tag}>, found '{text}'; correct it"
+            f"Expected {counted(count, 'number')}{above} as {name} of <{element.tag}>, found '{text}'; correct it"
         )
     return numbers
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..counted import counted
 from ..errors import Severe
 from ..settings import SamplingMode
 from ..shape.outward_faces import reading_warnings
@@ -66,7 +67,7 @@ def _crossing(shape: Shape) -> str:
     """Where faces pass through each other, as closed faces of a solid do not."""
     pair = shape.crossing[:1]
     place = placed(shape.points[shape.triangles[pair[0, 0]]].mean(axis=0)[None], shape.frame)[0]
-    pairs = "1 pair" if len(shape.crossing) == 1 else f"{len(shape.crossing):,} pairs"
+    pairs = counted(len(shape.crossing), "pair")
     return (
         f"{pairs} of faces pass through each other, as near {words_of_place(place)}, so the "
         "pieces, loops and cavities of the faces are not those of a solid; a Boolean modifier with "

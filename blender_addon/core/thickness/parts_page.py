@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..axis.colours import colours
+from ..counted import counted
 from ..files.writing import write_whole
 from ..samples.density import share_text
 from ..settings import Between
@@ -108,12 +109,12 @@ def verdict_of(rows: Sequence[PartRow], limit: float, unit: str, between: Betwee
     said = ""
     if limit > 0.0:
         what = "narrower" if between is Between.GAP else "thinner"
-        at = "1 place" if places == 1 else f"{places:,} places" if places else "no place"
-        of = f"{thin:,} of {_count(len(rows))}" if places else _count(len(rows))
+        at = counted(places, "place") if places else "no place"
+        of = f"{thin:,} of {counted(len(rows), 'part')}" if places else counted(len(rows), "part")
         said = f"{what.capitalize()} than {length_text(limit, unit)} at {at} of {of}."
     if lost := sum(not row.measured for row in rows):
-        said += f" {_count(lost)} could not be measured."
-    return said.strip() or f"{_count(len(rows))} measured."
+        said += f" {counted(lost, 'part')} could not be measured."
+    return said.strip() or f"{counted(len(rows), 'part')} measured."
 
 
 def export_page(
@@ -123,7 +124,7 @@ def export_page(
     heads = list(_HEADS)
     heads[1] = "Least gap" if between is Between.GAP else "Least wall"
     page = _PAGE.format(
-        parts=_count(len(rows)),
+        parts=counted(len(rows), "part"),
         style=STYLE,
         verdict=html.escape(verdict),
         heads="".join(f"<th>{head}</th>" for head in heads),
@@ -131,7 +132,3 @@ def export_page(
     )
     data = page.encode("utf-8", "backslashreplace")  # names of files are bytes
     return write_whole(path, lambda stream: stream.write(data))
-
-
-def _count(count: int) -> str:
-    return "1 part" if count == 1 else f"{count:,} parts"

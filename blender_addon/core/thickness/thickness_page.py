@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats
 from ..axis.colours import colours
+from ..counted import counted
 from ..samples.density import share_text
 from ..shape.triangles import cross
 from ..small_matrices import length_of
@@ -79,7 +80,7 @@ def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
     if parts.limit > 0.0:
         cells["Limit"] = length_text(parts.limit, unit)
         cells["Thinner than the limit"] = (
-            f"{share_text(parts.share)} of the surface, {_patches_text(len(parts.patches))}"
+            f"{share_text(parts.share)} of the surface, {counted(len(parts.patches), 'patch', 'patches')}"
         )
     if found.unmeasured > 0.0:
         cells["Unknown"] = f"{share_text(found.unmeasured)} of the surface"
@@ -161,10 +162,6 @@ def figure_of(pixels: NDArray[np.uint8], text: str) -> str:
         f'<figure><img src="data:image/png;base64,{data}" alt="{html.escape(text)}">'
         f"<figcaption>{html.escape(text)}</figcaption></figure>"
     )
-
-
-def _patches_text(count: int) -> str:
-    return "1 patch" if count == 1 else f"{count:,} patches"
 
 
 def length_text(value: float, unit: str) -> str:
