@@ -166,7 +166,7 @@ def inside(places, solid):
 
 
 def away_from(places, solid):
-    return load().surface_distances(np.ascontiguousarray(places), *solid)
+    return load().TriangleTree(*solid).distances(np.ascontiguousarray(places))
 
 
 if __name__ == "__main__":

@@ -86,7 +86,7 @@ def places_on(mesh: Mesh) -> NDArray[np.float64]:
 
 def judged(name: str, way: str, mesh: Mesh, shape: Shape, wall: float) -> list[str]:
     places = np.ascontiguousarray(places_on(mesh))
-    walls = 100 * medial.surface_distances(places, shape.points, shape.triangles) / wall
+    walls = 100 * medial.TriangleTree(shape.points, shape.triangles).distances(places) / wall
     outside = medial.winding_number(places, shape.points, shape.triangles) < 0.5
     crossings = len(crossing_pairs(*mesh))
     return [

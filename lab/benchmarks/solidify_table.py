@@ -171,11 +171,11 @@ def places_on(shape: Shape, wall: float) -> tuple[Floats, NDArray[np.bool_]]:
     weights = random.dirichlet((1, 1, 1), PLACES)
     places = (weights[:, :, None] * corners[rows]).sum(axis=1)
     sides = np.ascontiguousarray(rim_sides(sheet.triangles)[:, [0, 1, 1]].astype(np.int32))
-    inner = medial.surface_distances(places, sheet.points, sides) >= 0.5 * wall
+    inner = medial.TriangleTree(sheet.points, sides).distances(places) >= 0.5 * wall
     places, away = places[inner], 0.5 * wall * normals[rows[inner]]
     room = np.ones(len(places), bool)
     for centre in (places + away, places - away):
-        free = medial.surface_distances(centre, sheet.points, sheet.triangles)
+        free = medial.TriangleTree(sheet.points, sheet.triangles).distances(centre)
         room &= free >= 0.495 * wall
     return places, room
 
@@ -191,7 +191,7 @@ def inside(mesh: Mesh, wall: float) -> float:
 
 def judged(name: str, way: str, mesh: Mesh, at: tuple, wall: float, seconds: float) -> list[str]:
     places, room = at
-    walls = 200 * medial.surface_distances(places, mesh[0], mesh[1]) / wall
+    walls = 200 * medial.TriangleTree(mesh[0], mesh[1]).distances(places) / wall
     crossings = len(medial.crossing_faces(mesh[0], mesh[1]))
     even = np.abs(walls[room] - 100) <= 2
     least = f"{walls[~room].min():.1f}" if (~room).any() else ""

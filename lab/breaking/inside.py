@@ -301,7 +301,10 @@ def _calls() -> dict:
         "open_edges": (module.open_edges, {"points": ball, "triangles": triangles}),
         "solid_betti": (module.solid_betti, {"points": ball, "triangles": triangles}),
         "winding": (module.winding_number, {"queries": 0.5 * ball, **mesh}),
-        "distances": (module.surface_distances, {"queries": 0.5 * ball, **mesh}),
+        "distances": (
+            lambda queries, **words: module.TriangleTree(**words).distances(queries),
+            {"queries": 0.5 * ball, **mesh},
+        ),
         "walls": (
             module.wall_distances,
             {"points": ball, "normals": normals, "reach": some, **mesh},

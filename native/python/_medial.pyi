@@ -712,6 +712,38 @@ class ThicknessMode:
     normals are used; what tapers reads too thick."""
 
 @final
+class TriangleTree:
+    """A tree of boxes round the triangles of a surface, for distances from it.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        One at least; they may be without area.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+    def __init__(self, vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> None: ...
+    def distances(
+        self, queries: NDArray[np.float64], *, progress: Progress | None = None, threads: int = 0
+    ) -> NDArray[np.float64]:
+        """(q,) float64: how far each query is from the nearest triangle.
+
+        Parameters
+        ----------
+        queries : (q, 3) float64
+        progress : Progress, optional
+        threads : int
+            0: as many as the machine has. The result does not depend on it.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+
 class BallFaces:
     """The faces of a solid, flat or smooth, as walls that balls touch.
 
@@ -1850,29 +1882,19 @@ def surface_places(
     InvalidInputError
     """
 
-def surface_distances(
-    queries: NDArray[np.float64],
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    *,
-    progress: Progress | None = None,
-    threads: int = 0,
-) -> NDArray[np.float64]:
-    """(q,) float64: how far each query is from the nearest triangle.
+def smooth_line(places: NDArray[np.float64], widths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3) float64: the line with the least sum of squares of deviations and of weighted fourth differences.
 
     Parameters
     ----------
-    queries : (q, 3) float64
-    vertices : (v, 3) float64
-    triangles : (m, 3) int32
-        One at least; they may be without area.
-    progress : Progress, optional
-    threads : int
-        0: as many as the machine has. The result does not depend on it.
+    places : (n, 3) float64
+        In even steps.
+    widths : (n,) float64
+        Waves of 2 pi times so many steps lose half their height; the first and the last two have none.
 
     Raises
     ------
-    InvalidInputError, Cancelled
+    InvalidInputError
     """
 
 def reduce_sphere_mesh(

@@ -7,6 +7,7 @@
 #include "docstrings.h"
 #include "exact/held_ball.h"
 #include "levels/level.h"
+#include "levels/smooth_line.h"
 
 namespace medial::python {
 namespace {
@@ -39,6 +40,16 @@ py::tuple held_balls(const Hierarchy& h, const py::object& centres,
     });
   });
   return arrays_of(std::move(at), std::move(found));
+}
+
+py::array smooth(const py::object& places, const py::object& widths) {
+  const Points rows(places, "places");
+  const auto width = column_of<double>(widths, "widths", "(n,) float64");
+  if (width.size() != rows.span().size()) {
+    throw InvalidInputError("Expected a width for each place, found " +
+                            std::to_string(width.size()) + "; pass as many of both");
+  }
+  return array_of(released([&] { return smooth_line(rows.span(), width); }));
 }
 
 // Adds a property that is a view of an array of the hierarchy.
@@ -161,6 +172,7 @@ void bind_level(py::module_& m) {
 
 void bind_hierarchy(py::module_& m) {
   bind_level(m);
+  m.def("smooth_line", &smooth, docs::smooth_line, py::arg("places"), py::arg("widths"));
   py::class_<Hierarchy> c(m, "Hierarchy", docs::Hierarchy, py::is_final(), py::module_local());
   c.def_property_readonly(
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); }, docs::Hierarchy_betti)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // This binds queries about triangulated surfaces and polygons that need no analysis.
+#include <memory>
+
 #include "arrays.h"
 #include "base/polygon_edges.h"
 #include "base/rounding.h"
@@ -169,9 +171,7 @@ py::array buried_points(const py::object& points, const py::object& normals, dou
 }
 
 // Checks queries and the surface that they are asked of.
-void require_queries(std::span<const Vec3> at, std::span<const Vec3> vertices,
-                     std::span<const Triangle> triangles) {
-  require_finite(at, "queries");
+void require_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   require_finite(vertices, "vertices");
   require_corners(triangles, vertices.size());
   if (triangles.empty()) {
@@ -179,15 +179,22 @@ void require_queries(std::span<const Vec3> at, std::span<const Vec3> vertices,
   }
 }
 
-py::array surface_distances(const py::object& queries, const py::object& vertices,
-                            const py::object& triangles, Progress* progress, int threads) {
-  const Points asked(queries, "queries"), corners(vertices, "vertices");
+std::unique_ptr<TriangleTree> tree_of(const py::object& vertices, const py::object& triangles) {
+  const Points corners(vertices, "vertices");
   const Triangles faces(triangles);
+  return released([&] {
+    require_surface(corners.span(), faces.span());
+    return std::make_unique<TriangleTree>(corners.span(), faces.span());
+  });
+}
+
+py::array surface_distances(const TriangleTree& tree, const py::object& queries, Progress* progress,
+                            int threads) {
+  const Points asked(queries, "queries");
   const Run run{thread_count(thread_argument(threads)), progress};
   const auto at = asked.span();
-  require_queries(at, corners.span(), faces.span());
   return array_of(released([&] {
-    const TriangleTree tree(corners.span(), faces.span());
+    require_finite(at, "queries");
     std::vector<double> result(at.size());
     parallel_for(static_cast<int64_t>(at.size()), run,
                  [&](int64_t i) { result[i] = tree.distance(at[i]); });
@@ -201,7 +208,8 @@ py::tuple places_on_surface(const py::object& queries, const py::object& vertice
   const Triangles faces(triangles);
   const auto at = asked.span(), rows = corners.span();
   const auto face_span = faces.span();
-  require_queries(at, rows, face_span);
+  require_finite(at, "queries");
+  require_surface(rows, face_span);
   std::vector<int32_t> nearest(at.size());
   std::vector<Vec3> weights(at.size());
   released([&] {
@@ -265,9 +273,11 @@ void bind_surfaces(py::module_& m) {
         py::arg("triangles"), py::kw_only(), py::arg("most") = 20'000'000);
   m.def("winding_number", &winding_numbers, docs::winding_number, py::arg("queries"),
         py::arg("vertices"), py::arg("triangles"));
-  m.def("surface_distances", &surface_distances, docs::surface_distances, py::arg("queries"),
-        py::arg("vertices"), py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr,
-        py::arg("threads") = 0);
+  py::class_<TriangleTree>(m, "TriangleTree", docs::TriangleTree, py::is_final(),
+                           py::module_local())
+      .def(py::init(&tree_of), py::arg("vertices"), py::arg("triangles"))
+      .def("distances", &surface_distances, docs::TriangleTree_distances, py::arg("queries"),
+           py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("surface_places", &places_on_surface, docs::surface_places, py::arg("queries"),
         py::arg("vertices"), py::arg("triangles"));
   m.def("buried", &buried_points, docs::buried, py::arg("points"), py::arg("normals"),

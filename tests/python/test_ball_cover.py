@@ -56,7 +56,7 @@ def cover(medial, case, count, mode="INSIDE", **options):
 def inner(medial, case):
     """The candidates inside the solid, by functions that are tested elsewhere."""
     mesh, centres, radii = case
-    depth = medial.surface_distances(centres, *mesh)
+    depth = medial.TriangleTree(*mesh).distances(centres)
     inside = medial.winding_number(centres, *mesh) > 0.5
     return centres, np.where(inside, np.minimum(radii, depth), 0.0), np.where(inside, depth, -depth)
 
@@ -121,7 +121,7 @@ def test_figures_bound_what_is_measured(medial, mode, refine):
     outside *= (found.radii / np.linalg.norm(outside, axis=2).T).T[:, :, None]
     rim = (balls[0][:, None] + outside).reshape(-1, 3)
     beyond = medial.winding_number(rim, *TORUS) < 0.5
-    reach = medial.surface_distances(rim, *TORUS)[beyond].max(initial=0.0)
+    reach = medial.TriangleTree(*TORUS).distances(rim)[beyond].max(initial=0.0)
     assert reach <= found.outside + 1e-12
     if mode == "INSIDE":
         assert found.outside == 0.0 and reach <= 1e-12

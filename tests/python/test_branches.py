@@ -112,6 +112,22 @@ def test_a_tree_of_tubes():
 # --- the smooth line
 
 
+@pytest.mark.parametrize("count", [0, 1, 4, 5, 6, 40])
+def test_a_smooth_line_solves_its_equations(medial, count):
+    """Against the whole matrix of deviations and weighted fourth differences, solved by NumPy."""
+    random = np.random.default_rng(count)
+    places, widths = random.normal(size=(count, 3)), random.uniform(0.5, 3.0, count)
+    fourth = np.diff(np.eye(count), 4, axis=0) if count > 4 else np.zeros((0, count))
+    matrix = np.eye(count) + (fourth.T * widths[2 : 2 + len(fourth)] ** 8) @ fourth
+    wanted = np.linalg.solve(matrix, places)
+    np.testing.assert_allclose(medial.smooth_line(places, widths), wanted, rtol=1e-6, atol=1e-9)
+
+
+def test_a_smooth_line_has_a_width_at_each_place(medial):
+    with pytest.raises(medial.InvalidInputError, match="a width for each place, found 4"):
+        medial.smooth_line(np.zeros((5, 3)), np.ones(4))
+
+
 def trefoil(t):
     x = np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)
     return np.stack(x, axis=-1)
@@ -206,11 +222,21 @@ def test_a_cross_section_of_two_branches_is_none():
     assert np.isnan(section_of_box(MIDDLE, other)).all()
 
 
+def test_cross_sections_may_be_much_wider_than_the_balls():
+    """A slab twenty times as wide as thick: faces near the balls do not close a loop."""
+    points = np.column_stack((np.linspace(-4.0, 4.0, 81), np.zeros(81), np.zeros(81)))
+    line = skeleton_of(points, np.full(81, 0.2), [np.arange(81)], np.zeros(0, np.int64))
+    found = branches_of(line, None, Faces(*meshes.box((50, 20, 2), (5.0, 4.0, 0.2))))
+    assert found.sections[0] == len(found.profiles[0].share) > 9
+    for area, perimeter in found.profiles[0].values[:, 2:]:
+        assert (area, perimeter) == (pytest.approx(3.2), pytest.approx(16.8))
+
+
 def test_an_opening_has_no_cross_section():
     wall = (BOX.points[BOX.triangles][..., 0] > 0.99 * BOX.points[:, 0].max()).all(axis=1)
     assert 0 < wall.sum() < len(wall)
-    assert np.isnan(section_of_box(MIDDLE, triangles=BOX.triangles[~wall])).all()
-    assert np.isnan(section_of_box((9.0, 0, 0))).all()
+    assert section_of_box(MIDDLE, triangles=BOX.triangles[~wall]) is None
+    assert section_of_box((9.0, 0, 0)) is None
 
 
 def test_branches_on_loops_are_those_whose_ends_meet_without_them():

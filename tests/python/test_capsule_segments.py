@@ -63,7 +63,7 @@ def test_radii_are_those_that_the_compiled_module_finds(medial, tapered):
     places = np.random.default_rng(2).uniform((-0.3, -0.3, -2.0), (0.3, 0.3, 2.0), (120, 3))
     places = places[medial.winding_number(places, *mesh) > 0.5]
     ends = places[: len(places) // 2 * 2].reshape(-1, 2, 3)
-    radii, fits = fitting_radii(ends, mesh, tapered)
+    radii, fits = fitting_radii(ends, medial.TriangleTree(*mesh), tapered)
     assert 5 < fits.sum() < len(ends) - 5
     for row in np.flatnonzero(fits):
         one = medial.cover_by_capsules(
@@ -74,10 +74,10 @@ def test_radii_are_those_that_the_compiled_module_finds(medial, tapered):
         np.testing.assert_allclose(one.radii, radii[row], rtol=0.03, atol=1e-3)
 
 
-def test_a_segment_that_leaves_the_solid_does_not_fit():
+def test_a_segment_that_leaves_the_solid_does_not_fit(medial):
     ring = meshes.torus(1.0, 0.4, 48, 24)
     ends = np.array([[(1.0, 0, 0), (-1.0, 0, 0)], [(1.0, 0, 0), (0.98, 0.2, 0)]])
-    assert fitting_radii(ends, ring, False)[1].tolist() == [False, True]
+    assert fitting_radii(ends, medial.TriangleTree(*ring), False)[1].tolist() == [False, True]
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 11])

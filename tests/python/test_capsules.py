@@ -53,7 +53,7 @@ def off(places, found):
 def reach_out(medial, found, mesh):
     """How far balls along the capsules reach out of a solid, by their radii and depths."""
     centres, radii = balls_along(found, 201)
-    depth = medial.surface_distances(centres, *mesh)
+    depth = medial.TriangleTree(*mesh).distances(centres)
     inside = medial.winding_number(centres, *mesh) > 0.5
     return (radii - np.where(inside, depth, -depth)).max()
 

@@ -16,7 +16,7 @@ from support.thick_meshes import block
 
 def joined(medial, mesh, net):
     """How many pieces are, by distances from all faces, also those inside."""
-    depth = lambda places: medial.surface_distances(places, *mesh)
+    depth = lambda places: medial.TriangleTree(*mesh).distances(places)
     return join_pieces(net, depth, Shape(*mesh))[0]
 
 

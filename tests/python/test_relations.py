@@ -134,7 +134,7 @@ def distances(medial, scale, **options):
     random = np.random.default_rng(3)
     vertices, queries = random.normal(size=(300, 3)), random.normal(size=(9000, 3))
     triangles = random.integers(0, 300, (200, 3)).astype(np.int32)
-    found = medial.surface_distances(scale * queries, scale * vertices, triangles, **options)
+    found = medial.TriangleTree(scale * vertices, triangles).distances(scale * queries, **options)
     row, weights = medial.surface_places(scale * queries, scale * vertices, triangles)
     places = (weights[:, :, None] * scale * vertices[triangles[row]]).sum(axis=1)
     assert found == pytest.approx(np.linalg.norm(scale * queries - places, axis=1), rel=1e-9)

@@ -35,7 +35,7 @@ def by_sampling(query, corners, steps=60):
 
 def test_distances_to_a_box(medial):
     queries = np.random.default_rng(1).uniform(-1, 2, (5000, 3))
-    found = medial.surface_distances(queries, CORNERS, FACES)
+    found = medial.TriangleTree(CORNERS, FACES).distances(queries)
     assert np.allclose(found, to_box(queries), rtol=0, atol=1e-14)
 
 
@@ -44,7 +44,7 @@ def test_the_nearest_of_many_triangles(medial):
     vertices = random.normal(size=(120, 3))
     triangles = random.integers(0, 120, (40, 3)).astype(np.int32)  # some without area
     queries = random.normal(size=(30, 3))
-    found = medial.surface_distances(queries, vertices, triangles)
+    found = medial.TriangleTree(vertices, triangles).distances(queries)
     for query, distance in zip(queries, found, strict=True):
         sampled = min(by_sampling(query, vertices[row]) for row in triangles)
         assert distance - 1e-12 <= sampled < distance + 0.1
@@ -54,7 +54,7 @@ def test_triangles_without_area_are_segments_and_points(medial):
     vertices = np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0), (5, 0, 0)])
     triangles = np.array([(0, 1, 2), (3, 3, 3)], np.int32)
     queries = np.array([(0.5, 3, 0), (-3, 4, 0), (5, 0, 2), (1.5, 0, 0)])
-    assert medial.surface_distances(queries, vertices, triangles).tolist() == [3, 5, 2, 0]
+    assert medial.TriangleTree(vertices, triangles).distances(queries).tolist() == [3, 5, 2, 0]
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_triangles_without_area_are_segments_and_points(medial):
 )
 def test_what_is_refused(medial, queries, triangles, match):
     with pytest.raises(medial.InvalidInputError, match=match):
-        medial.surface_distances(np.array(queries, float), CORNERS, triangles)
+        medial.TriangleTree(CORNERS, triangles).distances(np.array(queries, float))
 
 
 def test_a_solid_does_not_differ_from_itself(medial):

@@ -15,7 +15,7 @@ def test_balls_in_a_thin_band_are_no_thicker_than_it(medial, form):
     bar = ((1.0, 0.45, 0.45), (2.0, 0.49, 0.46))
     points, triangles = turned(union(((0.0, 0, 0), (1.0, 1, 1)), bar, ((2.0, 0, 0), (3.0, 1, 1))))
     axis = medial_axis.compute(points, triangles, form=form).axis
-    depth = medial.surface_distances(axis.vertices, points, triangles)
+    depth = medial.TriangleTree(points, triangles).distances(axis.vertices)
     assert axis.level.betti == (1, 0, 0)
     assert np.abs(axis.radius - depth)[depth < 0.01].max() < 1e-4 and (depth < 0.0051).any()
 
@@ -60,7 +60,7 @@ def test_balls_at_the_ends_of_a_curve_leave_the_faces_no_farther_than_round_wall
     profile = [(0, 0), (0.62, 0), (0.62, 0.3), (0.94, 0.6), (0.82, 1.4), (0.82, 2.3), (0, 2.3)]
     points, triangles = thick_meshes.lathe(profile, 32)
     axis = medial_axis.compute(points, triangles, form="CURVE").axis
-    depth = medial.surface_distances(axis.vertices, points, triangles)
+    depth = medial.TriangleTree(points, triangles).distances(axis.vertices)
     assert (axis.radius - depth).max() < 0.94 * (1 - np.cos(np.pi / 32))
 
 

@@ -41,7 +41,7 @@ def test_the_wrap_is_closed_outward_and_at_its_distance(medial):
     assert medial.solid_betti(wrapped, faces) == (1, 0, 0)
     assert topology.volume(wrapped, faces) > 4.0
     diagonal = np.linalg.norm(np.ptp(points, axis=0))
-    away = medial.surface_distances(wrapped, points, triangles)
+    away = medial.TriangleTree(points, triangles).distances(wrapped)
     assert np.median(away) == pytest.approx(0.005 * diagonal, rel=0.05)
     assert away.min() > 0.0045 * diagonal, "no face sticks out"
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Flags, Floats, Ints
+from ..arrays import Flags, Floats
 from ..machine.native import own_errors
 from ..small_matrices import dot, length_of
 
@@ -34,29 +34,24 @@ def gaps(places: Floats, ends: Floats, radii: Floats) -> Floats:
 
 
 def fitting_radii(
-    ends: Floats, surface: tuple[Floats, Ints], tapered: bool, progress: Any | None = None
+    ends: Floats, surface: Any, tapered: bool, progress: Any | None = None
 ) -> tuple[Floats, Flags]:
     """Return radii of capsules in a solid, (n, 2), and whether each is worth more than the balls at its ends, (n,).
 
-    The segments are (n, 2, 3), in the solid, whose boundary is (v, 3) points and (f, 3) triangles. Tapered ones may
-    have two radii.
+    The segments are (n, 2, 3), in the solid, whose boundary is a `TriangleTree`. Tapered ones may have two radii.
     """
-    found = [
-        _fitting(depths, part, tapered)
-        for part in np.array_split(ends, max(1, -(-len(ends) // _MANY)))
-        for depths in [_depths(part, surface, progress)]
-    ]
-    return np.concatenate([radii for radii, _ in found]), np.concatenate(
-        [fits for _, fits in found]
-    )
+    parts = np.array_split(ends, max(1, -(-len(ends) // _MANY)))
+    found = [_fitting(_depths(part, surface, progress), part, tapered) for part in parts]
+    radii, fits = map(np.concatenate, zip(*found, strict=True))
+    return radii, fits
 
 
-def _depths(ends: Floats, surface: tuple[Floats, Ints], progress: Any | None) -> Floats:
+def _depths(ends: Floats, surface: Any, progress: Any | None) -> Floats:
     """Return the distances from the surface at even places of each segment, (n, 33)."""
     share = np.linspace(0.0, 1.0, _STEPS + 1)[:, None]
     places = (1.0 - share) * ends[:, 0, None] + share * ends[:, 1, None]
-    with own_errors() as module:
-        away = module.surface_distances(places.reshape(-1, 3), *surface, progress=progress)
+    with own_errors():
+        away = surface.distances(places.reshape(-1, 3), progress=progress)
     return np.asarray(away).reshape(len(ends), -1)
 
 

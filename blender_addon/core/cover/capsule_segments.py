@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,7 +148,7 @@ class _Merging:
         self,
         centres: Floats,
         radii: Floats,
-        surface: tuple[Floats, Ints],
+        surface: Any,
         witnesses: Witnesses,
         tapered: bool,
         progress: Progress | None,
@@ -263,9 +264,11 @@ def segments_of(
     the bound says. If one must be farther than twice that, the bound is doubled, and all begins anew. Tapered capsules
     may have two radii.
     """
+    with own_errors() as module:
+        tree = module.TriangleTree(*surface)
     while True:
         witnesses = Witnesses.of(*places, bound)
-        merging = _Merging(centres, radii, surface, witnesses, tapered, progress)
+        merging = _Merging(centres, radii, tree, witnesses, tapered, progress)
         merging.until(count)
         farthest = merging.farthest()
         if farthest <= _BEYOND * bound:

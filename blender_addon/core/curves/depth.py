@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints
@@ -30,13 +32,15 @@ class Depth:
 
     def __init__(self, samples: Analysed, shape: Shape | None) -> None:
         self._samples = samples.points[samples.analysis.samples]
-        self._faces: tuple[Floats, Ints] | None = None
+        self._faces: Any = None
         self._offset = samples.offset
         if shape is not None and len(shape.triangles):
             kept = shape.triangles
             if samples.buried:
                 kept = kept[~buried_faces(shape.points, kept)]
-            self._faces = (shape.points, kept) if len(kept) else None
+            if len(kept):
+                with native.own_errors() as module:
+                    self._faces = module.TriangleTree(shape.points, kept)
 
     def __call__(self, places: Floats) -> Floats:
         """Return the distances of (n, 3) places from the boundary, (n,), without a sign."""
@@ -44,8 +48,8 @@ class Depth:
             away = places - self._samples[nearest(places, self._samples)]
             found = np.sqrt(dot(away, away))
         else:
-            with native.own_errors() as module:
-                found = module.surface_distances(places, *self._faces)
+            with native.own_errors():
+                found = self._faces.distances(places)
         return np.maximum(found - self._offset, 0.0)
 
 

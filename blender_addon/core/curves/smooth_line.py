@@ -10,11 +10,11 @@ one twice as long 0.4 %.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Floats
+from ..machine import native
 from ..small_matrices import dot
 
 _PER_RADIUS = 8  # a mean radius has this many steps
@@ -22,8 +22,6 @@ _LEAST, _MOST = 16, 16_384  # a line has this many
 _HALVED = 0.7  # waves of this many circumferences lose half their height; chosen: skeleton
 _CLIPPED = 2.0, 16.0  # that many radii count as this many steps
 _BEYOND = 64  # this many steps beyond an end have an influence
-_FOURTH = 1.0, -4.0, 6.0, -4.0, 1.0
-_BAND = len(_FOURTH)
 _AROUND = 2  # this many places before and after a place decide how the line bends there
 
 
@@ -67,7 +65,8 @@ def smooth_line(points: Floats, radius: Floats, closed: bool) -> SmoothLine | No
     else:
         kept = row
     unit = (places[row, :3] - points[0]) / length  # neither large nor small lengths overflow
-    smooth = smoothed(unit, steps[row])
+    with native.own_errors() as module:
+        smooth = module.smooth_line(unit, steps[row])
     tangent, *bends = (values[kept] for values in _bends(smooth, 1.0 / count))
     line = smooth[kept]
     return SmoothLine(
@@ -102,17 +101,11 @@ def smooth_between(lines: list[Course]) -> list[tuple[Floats, Floats]]:
     places : (n, 3) float64
         The last place of a closed line is its first; it may be off the given line, as all others.
     """
-    longer = [_longer(line) for line in lines]
-    same: dict[int, list[int]] = {}  # lines of equal numbers of steps are made smooth together
-    for number, (_, table, _) in enumerate(longer):
-        same.setdefault(len(table), []).append(number)
-    found: list[Any] = [None] * len(lines)
-    for numbers in same.values():
-        tables = np.stack([longer[number][1] for number in numbers], axis=-1)
-        smooth = smoothed(tables, np.stack([longer[number][2] for number in numbers], axis=-1))
-        for number, places in zip(numbers, np.moveaxis(smooth, -1, 0), strict=True):
-            share = longer[number][0]
-            found[number] = share, _shorter(lines[number], places, len(share))
+    found = []
+    with native.own_errors() as module:
+        for line in lines:
+            share, places, steps = _longer(line)
+            found.append((share, _shorter(line, module.smooth_line(places, steps), len(share))))
     return found
 
 
@@ -172,62 +165,6 @@ def even_places(marks: Floats, points: Floats, radius: Floats) -> tuple[Floats, 
 def at_marks(wanted: Floats, marks: Floats, table: Floats) -> Floats:
     """Return the columns of a table, (n, k), of values at some marks, in between at other marks."""
     return np.column_stack([np.interp(wanted, marks, column) for column in table.T])
-
-
-def smoothed(places: Floats, steps: Floats) -> Floats:
-    """Return smooth places, as many as are given, for at least 5 places in even steps, of one line or of many.
-
-    Parameters
-    ----------
-    places : (n, 3) or (n, 3, lines) float64
-    steps : (n,) or (n, lines) float64
-        Waves of 2 pi times this many steps lose half their height.
-    """
-    middle = steps[2:-2]
-    square = middle * middle
-    weight = square * square * square * square
-    bands = np.zeros((_BAND, *steps.shape))
-    bands[0] = 1.0
-    for i, a in enumerate(_FOURTH):
-        for j, b in enumerate(_FOURTH[i:]):
-            bands[j, i : i + len(weight)] += a * b * weight
-    if steps.ndim == 1:
-        return _solved(bands.T.tolist(), places.T.tolist())
-    if steps.shape[1] == 1:  # plain numbers are faster than arrays of one
-        return smoothed(places[..., 0], steps[:, 0])[..., None]
-    rows = [list(row) for row in np.moveaxis(bands, 1, 0)]
-    return _solved(rows, [list(column) for column in np.moveaxis(places.copy(), 1, 0)])
-
-
-def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> Floats:
-    """Return what symmetric band matrices turn into the wanted tables, by Cholesky's method without roots.
-
-    Row j of `bands` has the entries (j, j), (j + 1, j), and so on; those beyond the matrix are 0. NumPy has no such
-    method. Products of small lists are faster in plain Python; for many matrices each entry is an array.
-
-    The n bands and the three columns of n are lists; the columns are changed.
-    """
-    size, reach = len(bands), _BAND - 1
-    pivots: list[Any] = []
-    below: list[list[Any]] = []  # row j has the factors (j + 1, j), (j + 2, j), ...
-    for j in range(size):
-        row = list(bands[j])
-        for back in range(1, min(reach, j) + 1):
-            factors, pivot = below[j - back], pivots[j - back]
-            first = factors[back - 1] * pivot
-            for k in range(_BAND - back):
-                row[k] -= first * factors[back - 1 + k]
-            for column in columns:
-                column[j] -= factors[back - 1] * column[j - back]
-        pivots.append(row[0])
-        below.append([value / row[0] for value in row[1:]])
-    for column in columns:
-        for j in range(size - 1, -1, -1):
-            value = column[j] / pivots[j]
-            for k in range(1, min(reach, size - 1 - j) + 1):
-                value -= below[j][k - 1] * column[j + k]
-            column[j] = value
-    return np.moveaxis(np.array(columns), 1, 0)
 
 
 def _bends(points: Floats, step: float) -> tuple[Floats, Floats, Floats]:

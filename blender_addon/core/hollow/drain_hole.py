@@ -53,7 +53,7 @@ def drain_hole(found: Hollow, width: float, down: Floats, near: Floats | None = 
     place = found.cavity[row]
     way = _way_out(found, place, down)
     steps = np.linspace(0.0, _LONGEST * found.wall, _PARTS + 1)
-    along = np.ascontiguousarray(place + steps[:, None] * way)
+    along = place + steps[:, None] * way
     with own_errors() as module:
         outer = found.triangles[: found.outer]
         inside = np.asarray(module.winding_number(along, found.shape.points, outer)) > 0.5
@@ -86,8 +86,8 @@ def _way_out(found: Hollow, place: Floats, down: Floats) -> Floats:
     sides = np.concatenate((np.identity(3), -np.identity(3))) * step
     with own_errors() as module:
         distances = np.asarray(
-            module.surface_distances(
-                place + sides, found.shape.points, found.triangles[: found.outer]
+            module.TriangleTree(found.shape.points, found.triangles[: found.outer]).distances(
+                place + sides
             )
         )
     way = (distances[3:] - distances[:3]) / (2.0 * step)

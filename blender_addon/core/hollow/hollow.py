@@ -132,17 +132,16 @@ def _step(shape: Shape, wanted: HollowSettings) -> float:
 def _surface(
     points: Floats, faces: Ints, wall: float, step: float, progress: Progress
 ) -> OffsetSurface:
+    with own_errors() as module:
+        tree = module.TriangleTree(points, faces)
+
     def distances(places: Floats) -> Floats:
-        with own_errors() as module:
-            return np.asarray(
-                module.surface_distances(
-                    np.ascontiguousarray(places), points, faces, progress=progress.part(0.3)
-                )
-            )
+        with own_errors():
+            return np.asarray(tree.distances(places, progress=progress.part(0.3)))
 
     def winding(places: Floats) -> Floats:
         with own_errors() as module:
-            return np.asarray(module.winding_number(np.ascontiguousarray(places), points, faces))
+            return np.asarray(module.winding_number(places, points, faces))
 
     used = points[faces.ravel()]
     return offset_surface(used.min(axis=0), used.max(axis=0), wall, step, distances, winding)
@@ -161,7 +160,9 @@ def _shell(
     inner = surface.triangles[:, ::-1] + np.int32(count)
     middles = surface.vertices[surface.triangles].mean(axis=1)
     with own_errors() as module:
-        depths = module.surface_distances(middles, shape.points, faces, progress=progress.part())
+        depths = module.TriangleTree(shape.points, faces).distances(
+            middles, progress=progress.part()
+        )
     volumes = _volumes(surface)
     # A space has one surface round it, and one more round each wall that stands in it.
     cavities, loose = int((volumes > 0.0).sum()), int((volumes < 0.0).sum())

@@ -344,9 +344,9 @@ def _outside(vertices: Floats, thickest: float, shape: Shape) -> tuple[str, ...]
     """A sentence where a vertex is outside the solid, farther than the thickest wall round it reaches."""
     faces = shape.points, shape.triangles
     with own_errors() as module:
-        away = np.asarray(module.surface_distances(np.ascontiguousarray(vertices), *faces))
+        away = np.asarray(module.TriangleTree(*faces).distances(vertices))
         far = np.flatnonzero(away > 0.5 * thickest)
-        winding = np.asarray(module.winding_number(np.ascontiguousarray(vertices[far]), *faces))
+        winding = np.asarray(module.winding_number(vertices[far], *faces))
     out = far[winding < 0.5]
     if not len(out):
         return ()

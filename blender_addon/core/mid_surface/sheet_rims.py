@@ -92,10 +92,8 @@ class Rims:
         along = self.edges.along[rows] - dot(self.edges.along[rows], normals)[:, None] * normals
         step = np.where(end == 0, 1.0, -1.0) * self.edges.radius[rows]
         with own_errors() as module:
-            away = module.surface_distances(
-                np.ascontiguousarray(vertices[vertex] + step[:, None] * along),
-                walls.points,
-                walls.triangles,
+            away = module.TriangleTree(walls.points, walls.triangles).distances(
+                vertices[vertex] + step[:, None] * along
             )
         lost = vertex[np.asarray(away) > _LOST * self.edges.radius[rows]]
         found = vertices.copy()
@@ -178,7 +176,9 @@ def _ends_of(edges: RimEdges, walls: Walls) -> tuple[Longs, Floats, Floats]:
     if not len(kind):
         return kind, places, normals
     with own_errors() as module:
-        away = np.asarray(module.surface_distances(edges.middles, walls.points, walls.triangles))
+        away = np.asarray(
+            module.TriangleTree(walls.points, walls.triangles).distances(edges.middles)
+        )
     has = edges.out.any(axis=1) & (edges.radius > 0.0)
     there = has & (away <= TOUCHES * edges.radius)
     # A ray from within finds the wall at which an edge is already.

@@ -30,9 +30,7 @@ def reflex_distances(points: Floats, walls: Walls) -> Floats:
         return np.full(len(points), np.inf)
     edges = np.ascontiguousarray(walls.reflex[:, [0, 1, 1]].astype(np.int32))
     with own_errors() as module:
-        return np.asarray(
-            module.surface_distances(np.ascontiguousarray(points), walls.points, edges)
-        )
+        return np.asarray(module.TriangleTree(walls.points, edges).distances(points))
 
 
 def between_walls(

@@ -48,7 +48,7 @@ def thick_faces(shape: Shape, sheets: SheetFaces, lengths: Lengths) -> ThickFace
         rows = np.flatnonzero(~beside)
         thickness = lengths(places[rows], np.full(len(rows), sheet, np.int32))
         with own_errors() as module:
-            away = np.asarray(module.surface_distances(places[rows], sheets.vertices, mine))
+            away = np.asarray(module.TriangleTree(sheets.vertices, mine).distances(places[rows]))
         beside[rows[away <= _BESIDE * thickness]] = True
     share = beside.reshape(len(corners), -1).mean(axis=1)
     used, row = np.unique(shape.triangles[share < 0.5], return_inverse=True)

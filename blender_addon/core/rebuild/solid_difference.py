@@ -98,7 +98,7 @@ def difference_of_points(
         nearest = np.asarray(module.nearest(points, queries[inside]))
         part = progress and progress.part()
         back = np.asarray(
-            module.surface_distances(points, shape.points, shape.triangles, progress=part)
+            module.TriangleTree(shape.points, shape.triangles).distances(points, progress=part)
         )
     there[inside] = np.linalg.norm(points[nearest] - queries[inside], axis=1)
     diagonal = length_of(np.ptp(used, axis=0))
@@ -113,7 +113,7 @@ def _distances(of: Shape, to: Shape) -> Floats:
     used = np.unique(of.triangles)
     queries = np.concatenate([_samples(of), of.points[used]])
     with own_errors() as module:
-        return np.asarray(module.surface_distances(queries, to.points, to.triangles))
+        return np.asarray(module.TriangleTree(to.points, to.triangles).distances(queries))
 
 
 def _samples(shape: Shape) -> Floats:

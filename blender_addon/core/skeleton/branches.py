@@ -245,13 +245,16 @@ def _sections(
     """Yield the area and the perimeter of the cross-section at each of some places of a branch."""
     room = _ROOM * float(line.radius.max())
     places = line.points[rows]
-    near = faces.near(places.min(axis=0) - room, places.max(axis=0) + room)
+    triangles = faces.near(places.min(axis=0) - room, places.max(axis=0) + room)
     others = curve.points[curve.edges[_edge_names(curve) != name]]
     for place, normal in zip(places, line.tangent[rows], strict=True):
-        found = section(place, normal, faces.points, near, others)
-        if np.isnan(found[0]) and len(near) < len(faces.triangles):
-            found = section(place, normal, faces.points, faces.triangles, others)
-        yield found
+        found = section(place, normal, faces.points, triangles, others)
+        if found is None and len(triangles) < len(faces.triangles):
+            triangles = (
+                faces.triangles
+            )  # this limb is wide: the next cross-sections need these, too
+            found = section(place, normal, faces.points, triangles, others)
+        yield found or (np.nan, np.nan)
 
 
 def _edge_names(skeleton: Skeleton) -> Longs:

@@ -250,7 +250,7 @@ def _shrink(net: Net, shape: Shape, full: Filled) -> None:
     """Give the balls of a net the radius of the bore, where they reach farther."""
     if len(full.inner):
         with native.own_errors() as module:
-            room = module.surface_distances(net.points, shape.points, full.inner)
+            room = module.TriangleTree(shape.points, full.inner).distances(net.points)
         np.minimum(net.radius, room, out=net.radius)
 
 

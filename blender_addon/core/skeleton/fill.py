@@ -69,7 +69,7 @@ def end_at_lids(net: Net, full: Filled) -> None:
     for tip in net.tips() if len(full.lids) else ():
         name, chain = net.limb(tip)
         with own_errors() as module:
-            room = module.surface_distances(net.points[chain], full.shape.points, full.lids)
+            room = module.TriangleTree(full.shape.points, full.lids).distances(net.points[chain])
         radius = net.radius[chain]
         first = int(np.argmax(room - radius))  # the ball that is farthest from lids
         touches = room[first:] <= (1.0 + 2.0 * AS_FAR) * radius[first:]

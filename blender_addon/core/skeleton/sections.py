@@ -8,7 +8,8 @@ import math
 import numpy as np
 
 from ..arrays import Flags, Floats, Ints, Longs
-from ..small_matrices import dot, times
+from ..shape.triangles import cross
+from ..small_matrices import dot, length_of, times
 
 _ENDS = np.array([(0, 1), (1, 2), (2, 0)])  # corners of the sides of a triangle
 
@@ -29,11 +30,11 @@ class Faces:
 
 def section(
     place: Floats, normal: Floats, points: Floats, triangles: Longs, others: Floats
-) -> tuple[float, float]:
-    """Return the area and the perimeter of the cross-section round a place, or twice nan where there is none.
+) -> tuple[float, float] | None:
+    """Return the area and the perimeter of the cross-section round a place, twice nan where it is unknown.
 
-    There is none where the cuts round the place are not closed, as at an opening of the faces, and where other lines
-    pass through the cross-section, too: it is then that of several limbs together.
+    It is unknown where other lines pass through the cross-section, too, which is then that of several limbs together.
+    There is none where the cuts round the place are not closed, as at an opening of the faces.
 
     Parameters
     ----------
@@ -46,16 +47,14 @@ def section(
     others : (k, 2, 3) float64
         The segments of other lines.
     """
-    frame = _across(normal)
-    loops = _loops(*_cuts(times(points - place, np.vstack((frame, normal))), triangles))
-    round_it = [loop for loop in loops if _within(np.zeros((1, 2)), loop)[0]]
-    if not round_it:
-        return math.nan, math.nan
-    areas = [_area(loop) for loop in round_it]
-    loop = round_it[int(np.argmin(areas))]
-    ends = times(others - place, np.vstack((frame, normal)))
-    above = ends[..., 2] >= 0.0
-    through = ends[above[:, 0] != above[:, 1]]
+    frame = np.vstack((_across(normal), normal))
+    loops = _loops(*_cuts(place, frame, points, triangles))
+    if not loops:
+        return None
+    areas = [_area(loop) for loop in loops]
+    loop = loops[int(np.argmin(areas))]
+    above = dot(others - place, normal) >= 0.0
+    through = times(others[above[:, 0] != above[:, 1]] - place, frame)
     if _within(_on_plane(through[:, 0], through[:, 1]), loop).any():
         return math.nan, math.nan
     steps = np.roll(loop, -1, axis=0) - loop
@@ -66,24 +65,24 @@ def _across(normal: Floats) -> Floats:
     """Return two unit vectors across a third one, (2, 3)."""
     axis = np.zeros(3)
     axis[np.argmin(np.abs(normal))] = 1.0
-    first = np.cross(normal, axis)
-    first /= math.sqrt(float(dot(first, first)))
-    return np.stack((first, np.cross(normal, first)))
+    first = cross(normal, axis)
+    first /= length_of(first)
+    return np.concatenate((first, cross(normal, first[0])))
 
 
-def _cuts(points: Floats, triangles: Longs) -> tuple[Floats, Longs]:
+def _cuts(place: Floats, frame: Floats, points: Floats, triangles: Longs) -> tuple[Floats, Longs]:
     """Return where a plane cuts sides of triangles, (k, 2), and the two cuts of each triangle that it cuts, (t, 2).
 
-    The plane is that of the first two axes. Points on it count as above it.
+    The plane is that of the first two axes of the frame, and the place is its origin. Points on it count as above it.
     """
-    above = points[:, 2] >= 0.0
+    above = dot(points - place, frame[2]) >= 0.0
     count = above[triangles].sum(axis=1)
     cut = triangles[(count > 0) & (count < 3)]
     sides = np.sort(cut[:, _ENDS], axis=2)  # (t, 3, 2)
     sides = sides[above[sides[..., 0]] != above[sides[..., 1]]]  # two of each triangle
     keys, row = np.unique(sides[:, 0] * len(points) + sides[:, 1], return_inverse=True)
-    ends = np.column_stack((keys // len(points), keys % len(points)))
-    return _on_plane(points[ends[:, 0]], points[ends[:, 1]]), row.reshape(-1, 2)
+    ends = times(points[np.stack((keys // len(points), keys % len(points)))] - place, frame)
+    return _on_plane(*ends), row.reshape(-1, 2)
 
 
 def _on_plane(a: Floats, b: Floats) -> Floats:
@@ -93,26 +92,23 @@ def _on_plane(a: Floats, b: Floats) -> Floats:
 
 
 def _loops(places: Floats, pairs: Longs) -> list[Floats]:
-    """Return the closed polygons, (n, 2) each, that segments between places form; forks and open ends have none."""
-    meeting: list[list[int]] = [[] for _ in places]
-    for segment, (a, b) in enumerate(pairs.tolist()):
-        meeting[a].append(segment)
-        meeting[b].append(segment)
-    ends = pairs.tolist()
-    used = [False] * len(ends)
-    found = []
-    for segment, (start, _) in enumerate(ends):
-        rows, at = [start], start
-        while not used[segment] and len(meeting[at]) == 2:
-            used[segment] = True
-            a, b = ends[segment]
-            at = b if a == at else a
-            rows.append(at)
-            first, second = meeting[at] if len(meeting[at]) == 2 else (segment, segment)
-            segment = second if first == segment else first
-        if len(rows) > 3 and at == start:
-            found.append(places[rows[:-1]])
-    return found
+    """Return the closed polygons round the origin, (n, 2) each, that segments form; forks and open ends have none."""
+    ends = pairs.ravel()  # those of segment i are rows 2 i and 2 i + 1
+    last = np.cumsum(np.bincount(ends, minlength=len(places))) - 1
+    two = np.argsort(ends, kind="stable")[last[np.diff(last, prepend=-1) == 2, None] - (1, 0)]
+    partner = np.full(len(ends), -1)
+    partner[two] = two[:, ::-1]
+    following, used, found = partner.tolist(), set(), []
+    # A polygon round the origin crosses a ray from there.
+    for segment in np.flatnonzero(_crossed(np.zeros((1, 2)), *places[pairs.T])[0]).tolist():
+        end, rows = 2 * segment, []
+        while end >= 0 and end // 2 not in used:
+            used.add(end // 2)
+            rows.append(end)
+            end = following[end ^ 1]
+        if len(rows) > 2 and end == 2 * segment:
+            found.append(places[ends[rows]])
+    return [loop for loop in found if _within(np.zeros((1, 2)), loop)[0]]
 
 
 def _area(loop: Floats) -> float:
@@ -122,8 +118,12 @@ def _area(loop: Floats) -> float:
 
 def _within(places: Floats, loop: Floats) -> Flags:
     """Return which places, (k, 2), are inside of a polygon: a ray from there crosses it an odd number of times."""
-    a, b = loop, np.roll(loop, -1, axis=0)
+    return _crossed(places, loop, np.roll(loop, -1, axis=0)).sum(axis=1) % 2 == 1
+
+
+def _crossed(places: Floats, a: Floats, b: Floats) -> Flags:
+    """Return whether the ray along the first axis from each of (k, 2) places crosses each of n segments, (k, n)."""
     crossed = (a[:, 1] > places[:, 1, None]) != (b[:, 1] > places[:, 1, None])
     rise = np.where(a[:, 1] == b[:, 1], 1.0, b[:, 1] - a[:, 1])
     at = a[:, 0] + (places[:, 1, None] - a[:, 1]) * ((b[:, 0] - a[:, 0]) / rise)
-    return (crossed & (at > places[:, 0, None])).sum(axis=1) % 2 == 1
+    return crossed & (at > places[:, 0, None])

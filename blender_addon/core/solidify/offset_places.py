@@ -112,10 +112,12 @@ def _heights(points: Floats, triangles: Ints, moves: Floats) -> Floats:
 
 
 def _distances_from(points: Floats, triangles: Ints, progress: Progress) -> Distances:
+    with own_errors() as module:
+        tree = module.TriangleTree(points, triangles)
+
     def distances(places: Floats) -> Floats:
-        with own_errors() as module:
-            part = progress.part(0.1)
-            return np.asarray(module.surface_distances(places, points, triangles, progress=part))
+        with own_errors():
+            return np.asarray(tree.distances(places, progress=progress.part(0.1)))
 
     return distances
 

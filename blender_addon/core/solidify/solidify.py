@@ -132,11 +132,8 @@ def _measured(
     count, faces = len(sheet.points), len(sheet.triangles)
     middles = solid.points[solid.triangles[: 2 * faces]].mean(axis=1)
     with own_errors() as module:
-        away = module.surface_distances(
-            np.concatenate((solid.points, middles)),
-            sheet.points,
-            sheet.triangles,
-            progress=progress.part(),
+        away = module.TriangleTree(sheet.points, sheet.triangles).distances(
+            np.concatenate((solid.points, middles)), progress=progress.part()
         )
     parts = np.split(away, [count, 2 * count, 2 * count + faces])
     at_vertices, at_middles = (
