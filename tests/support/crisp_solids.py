@@ -308,7 +308,8 @@ def _edges(
 
 def _mesh(loops: Sequence[tuple[Curve, ...]], half: float) -> Mesh:
     flat = [_points(loop) for loop in loops]
-    faces = _cut(flat)
+    # Bases of equal length are as long on every processor.
+    faces = _cut([np.round(points, 10) for points in flat])
     corners = np.concatenate(flat)
     pieces = [_soup(corners[faces[:, ::-1]], -half), _soup(corners[faces], half)]
     for loop, points in zip(loops, flat):
