@@ -100,10 +100,10 @@ def test_curved_walls_are_missed_by_chords_only(name):
         assert level.radius[row] == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("seed", [7, 10])
+@pytest.mark.parametrize("seed", [1, 3, 7, 10])
 def test_a_sheet_ends_where_the_balls_of_a_fillet_have_their_common_centre(seed):
     found = Case("stadium", 4000, seed, mesh="even").made(crisp=True).measured()
-    assert found.err.most < 3e-3 and found.cov.most < 5e-3
+    assert found.err.most < 2e-3 and found.cov.most < 5e-3
 
 
 @pytest.mark.parametrize("name", ["ellipsoid", "oblate"])

@@ -137,9 +137,9 @@ std::optional<Touch> EvenPlaces::smooth_ball_at(int32_t v, const Vec3& start,
   const double hole = hole_at(v);
   const Touch ball = smooth_ball(samples_, {start, hole}, walls);
   if (!(ball.radius > 0)) return {};
+  if (!(openness(ball.away) > kRimOpenness)) return Touch{};  // it has one foot
   if (e_.mesh.stratum(v) == Stratum::sheet) return ball;
-  const bool has_two_feet = openness(ball.away) > kRimOpenness;
-  return has_two_feet && is_empty_between(samples_, ball, hole) ? ball : Touch{};
+  return is_empty_between(samples_, ball, hole) ? ball : Touch{};
 }
 
 // Returns the ball of a vertex that sees walls on one side of its sheet only: it is beyond a thin
