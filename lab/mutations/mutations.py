@@ -610,6 +610,13 @@ MUTATIONS = (
         python=("test_thin_radii.py",),
     ),
     Mutation(
+        "levels/smooth_line.cpp",
+        "kEntries && j + k < size",
+        "kEntries - 1 && j + k < size",
+        "smooth lines lose a factor on the way back",
+        python=("test_branches.py",),
+    ),
+    Mutation(
         "levels/canal.cpp",
         "canal.trust = all_round();",
         "canal.trust = 1;",

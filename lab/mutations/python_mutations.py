@@ -310,6 +310,20 @@ MUTATIONS = (
         "test_skeleton.py",
     ),
     _bug(
+        "skeleton/branches.py",
+        "if found is None and len(triangles) < len(faces.triangles):",
+        "if False:",
+        "cross-sections are sought among the faces near a branch alone",
+        "test_branches.py",
+    ),
+    _bug(
+        "skeleton/sections.py",
+        "if len(rows) > 2 and end == 2 * segment:",
+        "if len(rows) > 2:",
+        "cuts that are not closed count as a cross-section",
+        "test_branches.py",
+    ),
+    _bug(
         "rig/weights.py",
         "weight[rows, hangs_on] += (block - left).sum(axis=1)",
         "weight[rows, hangs_on] += block.sum(axis=1)",

@@ -232,8 +232,10 @@ def test_cross_sections_may_be_much_wider_than_the_balls():
         assert (area, perimeter) == (pytest.approx(3.2), pytest.approx(16.8))
 
 
-def test_an_opening_has_no_cross_section():
-    wall = (BOX.points[BOX.triangles][..., 0] > 0.99 * BOX.points[:, 0].max()).all(axis=1)
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_an_opening_has_no_cross_section(axis, side):
+    wall = (side * BOX.points[BOX.triangles][..., axis] > 0.99).all(axis=1)
     assert 0 < wall.sum() < len(wall)
     assert section_of_box(MIDDLE, triangles=BOX.triangles[~wall]) is None
     assert section_of_box((9.0, 0, 0)) is None
