@@ -42,8 +42,8 @@ def fitting_radii(
     """
     parts = np.array_split(ends, max(1, -(-len(ends) // _MANY)))
     found = [_fitting(_depths(part, surface, progress), part, tapered) for part in parts]
-    radii, fits = map(np.concatenate, zip(*found, strict=True))
-    return radii, fits
+    radii, fits = zip(*found, strict=True)
+    return np.concatenate(radii), np.concatenate(fits)
 
 
 def _depths(ends: Floats, surface: Any, progress: Any | None) -> Floats:
