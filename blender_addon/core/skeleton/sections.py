@@ -76,8 +76,8 @@ def _cuts(place: Floats, frame: Floats, points: Floats, triangles: Longs) -> tup
     The plane is that of the first two axes of the frame, and the place is its origin. Points on it count as above it.
     """
     above = dot(points - place, frame[2]) >= 0.0
-    count = above[triangles].sum(axis=1)
-    cut = triangles[(count > 0) & (count < 3)]
+    first, second, third = above[triangles].T
+    cut = triangles[(first != second) | (second != third)]
     sides = np.sort(cut[:, _ENDS], axis=2)  # (t, 3, 2)
     sides = sides[above[sides[..., 0]] != above[sides[..., 1]]]  # two of each triangle
     keys, row = np.unique(sides[:, 0] * len(points) + sides[:, 1], return_inverse=True)
