@@ -57,12 +57,8 @@ def line_of(walled, fill, thick, colour):
     bpy.context.collection.objects.link(line)
     found.hide_render = True
     line.data.bevel_depth, line.data.use_fill_caps = thick, True
-    material = bpy.data.materials.new(fill)
-    material.use_nodes = True
-    surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
-    surface.inputs["Base Color"].default_value = colour
     line.data.materials.clear()
-    line.data.materials.append(material)
+    line.data.materials.append(blender_scene.painted(fill, colour))
     return line
 
 

@@ -62,11 +62,7 @@ def half(thing, place):
     cut.to_mesh(mesh)
     cut.free()
     for name, colour in (("Wall", (0.35, 0.5, 0.7, 1.0)), ("Section", (0.9, 0.4, 0.05, 1.0))):
-        material = bpy.data.materials.new(name)
-        material.use_nodes = True
-        surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
-        surface.inputs["Base Color"].default_value = colour
-        mesh.materials.append(material)
+        mesh.materials.append(blender_scene.painted(name, colour))
     made = bpy.data.objects.new("Half", mesh)
     bpy.context.collection.objects.link(made)
     return made

@@ -35,7 +35,7 @@ def main():
     blender_demo.install(archive)
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
-    steel = painted("Steel", (0.85, 0.4, 0.08, 1.0))
+    steel = blender_scene.painted("Steel", (0.85, 0.4, 0.08, 1.0))
     shown = []
     for place in range(1 + len(COVERS)):
         links = [link(ends, place * APART, steel) for ends in LINKS]
@@ -69,14 +69,6 @@ def cover(each, shapes, count):
     bpy.ops.object.medial_axis_balls(mode="AROUND", shapes=shapes, count=count)
     each.hide_render = True
     return bpy.context.object
-
-
-def painted(name, colour):
-    material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
-    surface.inputs["Base Color"].default_value = colour
-    return material
 
 
 def render(things, picture):

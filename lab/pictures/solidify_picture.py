@@ -36,8 +36,9 @@ def main():
     made = bpy.context.object
     print(made["ma_solid_least"], made["ma_warnings"])
     bpy.data.objects.remove(source)
-    paint(first, (0.85, 0.4, 0.08, 1.0))
-    paint(made, (0.1, 0.32, 0.62, 1.0))
+    for thing, colour in ((first, (0.85, 0.4, 0.08, 1.0)), (made, (0.1, 0.32, 0.62, 1.0))):
+        thing.data.materials.clear()
+        thing.data.materials.append(blender_scene.painted(thing.name, colour))
     render([first, made], picture)
 
 
@@ -76,15 +77,6 @@ def ribbon(name, place):
     thing = bpy.data.objects.new(name, mesh)
     bpy.context.collection.objects.link(thing)
     return thing
-
-
-def paint(thing, colour):
-    material = bpy.data.materials.new(thing.name)
-    material.use_nodes = True
-    surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
-    surface.inputs["Base Color"].default_value = colour
-    thing.data.materials.clear()
-    thing.data.materials.append(material)
 
 
 def render(things, picture):

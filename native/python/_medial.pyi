@@ -744,6 +744,7 @@ class TriangleTree:
         InvalidInputError, Cancelled
         """
 
+@final
 class BallFaces:
     """The faces of a solid, flat or smooth, as walls that balls touch.
 
@@ -1890,7 +1891,7 @@ def smooth_line(places: NDArray[np.float64], widths: NDArray[np.float64]) -> NDA
     places : (n, 3) float64
         In even steps.
     widths : (n,) float64
-        Waves of 2 pi times so many steps lose half their height; the first and the last two have none.
+        Waves of 2 pi times so many steps lose half their height; the first two and the last two do not matter.
 
     Raises
     ------

@@ -170,7 +170,7 @@ py::array buried_points(const py::object& points, const py::object& normals, dou
   }));
 }
 
-// Checks queries and the surface that they are asked of.
+// Checks a surface of which something is asked.
 void require_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   require_finite(vertices, "vertices");
   require_corners(triangles, vertices.size());

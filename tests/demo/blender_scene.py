@@ -124,6 +124,15 @@ def glass(shine=True):
     return material
 
 
+def painted(name, colour):
+    """A plain material of one colour."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    surface = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    surface.inputs["Base Color"].default_value = colour
+    return material
+
+
 def map_range(new, link, value, low, high):
     node = new("ShaderNodeMapRange")
     node.inputs[3].default_value, node.inputs[4].default_value = low, high

@@ -205,7 +205,11 @@ def test_waves_shorter_than_the_ball_go_and_ends_stay(closed):
     line = np.column_stack((wave * np.cos(angle), wave * np.sin(angle), 0 * angle))
     if closed:
         line[-1] = line[0]
-    ((share, places),) = smooth_between([Course(line, np.full(401, 0.3), closed)])
+    course = Course(line, np.full(401, 0.3), closed)
+    (share, places), again = smooth_between([course, course])
+    np.testing.assert_allclose(again[1], places, rtol=0, atol=1e-12)
+    ((_, alone),) = smooth_between([course])
+    np.testing.assert_allclose(alone, places, rtol=0, atol=1e-12)
     radius = np.linalg.norm(places, axis=1)
     inner = radius if closed else radius[len(radius) // 5 : -len(radius) // 5]
     assert np.abs(inner - 1).max() < 0.004 and len(share) == len(places)

@@ -43,9 +43,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: Analysed) -> str:
 def betti_words(betti: tuple[int, int, int]) -> str:
     """Format Betti numbers as '1 piece, 5 loops, no cavity'."""
     named = zip(betti, _NAMES, strict=True)
-    return ", ".join(
-        counted(number, *names) if number else f"no {names[0]}" for number, names in named
-    )
+    return ", ".join(counted(n, *names) if n else f"no {names[0]}" for n, names in named)
 
 
 def betti_in_short(betti: Sequence[int]) -> list[str]:

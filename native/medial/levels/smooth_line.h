@@ -10,8 +10,8 @@
 
 namespace medial {
 
-// Returns as many places as are given, in even steps. Waves of 2 pi times as many steps as
-// `widths` has at a place lose half their height there; the first and the last two have none.
+// Returns as many places as are given, in even steps. Waves of 2 pi times `widths` steps lose half
+// their height there; the first two and the last two widths do not matter.
 std::vector<Vec3> smooth_line(std::span<const Vec3> places, std::span<const double> widths);
 
 }  // namespace medial
